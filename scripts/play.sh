@@ -19,8 +19,8 @@ if [[ ${CULLET_FILMS:-1} != 0 ]]; then
     fi
 fi
 build/release/sample_game run show_reel --out "$out" --contact-sheet "${films[@]}" "$@"
-# What dents and does not break.
-for scene in panel drum car; do
+# What dents and does not break, and what is solid.
+for scene in panel drum car statue; do
     build/release/sample_game run $scene --hash off --out "$out/$scene" --contact-sheet "${films[@]}"
 done
 
@@ -36,6 +36,7 @@ What there is to see, in $PWD/$out:
   panel/sheet.png  balls of 100 kg dent a clamped steel panel, and one comes to rest in its dent
   drum/sheet.png   an empty steel drum falls on its rim, which folds
   car/sheet.png    car bodies of sheet steel are thrown into a wall, a pole and another car
+  statue/sheet.png a ball hits a solid statue of stone on its plinth: head and legs come off, and fall to the floor
   */film.mp4       each as a film
   */report.html    each run on a page: times of its frames, pictures, notes
   */report.json    each run in numbers: frame times, hits, fragments, mass, hash (README.md says how to read it)
