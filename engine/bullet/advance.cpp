@@ -243,7 +243,7 @@ Push Meeting::turn_on(bool is_of_b, Vec3d& axis) const {
     Push push = Push::Turned;
     if (closest.is_apart)
         push = turn_to_open_face(around, touched, {&place, 1}, normal);
-    else if (mover.body->kind != RigidKind::Static)
+    else if (!is_firm(*mover.body))
         push = Push::AsFound;
     else if (!find_open_face(around, touched, points->centre, normal))
         push = Push::None;

@@ -47,8 +47,8 @@ struct Body {
     std::optional<btRigidBody> bullet;
     BodyShape shape;
     uint32_t layer = 0, mask = 0;
-    uint32_t leaf = kNoLeaf;        // in the tree of boxes
-    uint32_t still_leaf = kNoLeaf;  // in that of what stands still
+    uint32_t leaf = kNoLeaf;       // in the tree of boxes
+    uint32_t firm_leaf = kNoLeaf;  // in that of what no solver moves
     BodyFrame frame;
     // Where the local points of the hulls stand: `frame` as it was when they were last made all at once. A small change
     // of shape moves the centre of mass and turns the axes; the hulls that stay then keep their points.
@@ -124,6 +124,11 @@ inline float scale_of(const Body& body) {
 }
 inline float scale_of(const Body& a, const Body& b) {
     return std::min(scale_of(a), scale_of(b));
+}
+
+/// No solver moves it.
+inline bool is_firm(const Body& body) {
+    return body.kind != RigidKind::Dynamic;
 }
 
 /// They were one body, and may not throw each other yet.

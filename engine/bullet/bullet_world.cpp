@@ -42,13 +42,13 @@ BulletWorld::BulletWorld(uint32_t body_limit)
       work_(body_limit),
       scratches_(body_limit),
       tree_(body_limit),
-      still_tree_(body_limit),
+      firm_tree_(body_limit),
       has_strayed_(body_limit),
       pairs_(body_limit),
       solver_(body_limit),
       sweeper_(body_limit) {
     work_.bodies = bodies_.get();
-    work_.around = {bodies_.get(), &still_tree_};
+    work_.around = {bodies_.get(), &firm_tree_};
     strayed_.reserve(4 * static_cast<size_t>(body_limit) + 1024);
     contacts_.reserve(32 * static_cast<size_t>(body_limit) + 1024);
     loads_.reserve(32 * static_cast<size_t>(body_limit) + 1024);
@@ -396,14 +396,14 @@ void BulletWorld::enter_tree(Body& body) {
 void BulletWorld::enter_leaf(Body& body) {
     const Box box = grown(body.shape.box, kWatched + kLeafRoom);
     body.leaf = tree_.add(box, body.id);
-    if (body.kind == RigidKind::Static) body.still_leaf = still_tree_.add(box, body.id);
+    if (is_firm(body)) body.firm_leaf = firm_tree_.add(box, body.id);
     strayed_.push_back(body.id);
 }
 
 void BulletWorld::leave_leaf(Body& body) {
     tree_.remove(body.leaf);
-    if (body.still_leaf != kNoLeaf) still_tree_.remove(body.still_leaf);
-    body.leaf = body.still_leaf = kNoLeaf;
+    if (body.firm_leaf != kNoLeaf) firm_tree_.remove(body.firm_leaf);
+    body.leaf = body.firm_leaf = kNoLeaf;
 }
 
 void BulletWorld::add_static_triangles(RigidId id, std::span<const Vec3> positions,

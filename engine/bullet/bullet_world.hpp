@@ -174,7 +174,7 @@ class BulletWorld final : public RigidWorld {
     /// Calls call(mesh body) for static triangles near the box that the body meets.
     template <class Call>
     void visit_meshes(const Body& body, const Box& box, Call call) const {
-        still_tree_.visit(box, [&](uint32_t id) {
+        firm_tree_.visit(box, [&](uint32_t id) {
             const Body& other = bodies_[id];
             if (other.mesh && body.meets_layer_of(other) && !is_ignored(body.id, id)) call(other);
         });
@@ -219,7 +219,7 @@ class BulletWorld final : public RigidWorld {
     Scratches scratches_;
     btVector3 gravity_{0, 0, 0};
     BoxTree tree_;
-    BoxTree still_tree_;                // of static bodies alone: all that moves asks for these in each step
+    BoxTree firm_tree_;                 // of these bodies alone: all that moves asks for them in each step
     std::vector<RigidId> strayed_;      // left their leaf since pairs were looked for last
     std::vector<uint8_t> has_strayed_;  // by id, while pairs are looked for
     PairList pairs_;

@@ -21,6 +21,7 @@ constexpr float kBefore = 0.5f;
 constexpr float kAlong = 0.7f;
 constexpr float kBehind = 0.005f;  // m, of scale 1
 constexpr float kLevel = 0.9998f;  // cosine of planes that are one
+constexpr float kApart = 0.03f;    // m/s, half a millimetre in a step of a sixtieth
 constexpr int kTurns = 3;          // of a direction into a cone
 constexpr int kFaces = 4;          // looked at until one is open
 // A place on an edge is as exact as its coordinates.
@@ -31,9 +32,9 @@ float on_edge(Vec3 place) {
 // At a rounded edge the surface lies this much below the plane of a side of it: the place is `margin` along `direction`
 // from the core, also where that leads away from the side. Without this, the end of a kerb's piece is inner where the
 // next one begins, and the corner of a pane whose cells meet there.
-float below_plane(float margin, Vec3 side, Vec3 direction, bool is_still) {
+float below_plane(float margin, Vec3 side, Vec3 direction, bool is_firm) {
     const float along = dot(side, direction);
-    return margin * (1 - (is_still ? std::max(0.0f, along) : along));
+    return margin * (1 - (is_firm ? std::max(0.0f, along) : along));
 }
 
 /// A place and a direction in the axes of a hull, from its centre.
@@ -81,7 +82,7 @@ struct Beside {
 /// Where it is looked for, of what was touched there.
 struct Reach {
     float flush, margin;  // m
-    bool is_still;
+    bool is_firm;
     Vec3 level;  // of what moves: the plane that is to go on in the neighbour, in world axes
     float most() const { return flush + margin; }
 };
@@ -100,7 +101,7 @@ Beside look_at(const Body& body, const Hull& hull, Vec3 place, Vec3 direction, R
         if (!(dot(normal, normal) > 0.5f)) continue;
         const float height = dot(normal, at.place) - hull.face_height[f] - hull.margin;
         if (height > reach.most()) return {};
-        const float below = below_plane(reach.margin, normal, at.direction, reach.is_still);
+        const float below = below_plane(reach.margin, normal, at.direction, reach.is_firm);
         if (height > -edge - below) bounds.out[bounds.count++] = normal;
         if (dot(normal, level) > kLevel && height > -reach.flush - below) beside.is_level = true;
         if (height > highest && std::fabs(dot(normal, at.direction)) < kAlong)
@@ -129,7 +130,7 @@ Beside look_at(const StaticTriangle& triangle, Vec3 place, Vec3 direction, Reach
         // Beside the triangle, and on the way from it: it goes on somewhere else. (At the top of a kerb that was cut
         // into triangles the slant of one, a quarter of a millimetre below a ball's touch, took it away.)
         if (past > edge && dot(outwards, direction) > 0) return {};
-        if (past > -edge - below_plane(reach.margin, outwards, direction, reach.is_still))
+        if (past > -edge - below_plane(reach.margin, outwards, direction, reach.is_firm))
             bounds.out[bounds.count++] = outwards;
     }
     Beside beside;
@@ -156,19 +157,38 @@ bool are_same(const StaticTriangle& triangle, const Hull& hull) {
     return true;
 }
 
+Vec3 velocity_at(const Body& body, Vec3 place) {
+    if (body.kind == RigidKind::Static) return {};
+    const Vec3 from = place - from_bullet(body.bullet->getCenterOfMassPosition());
+    return from_bullet(body.bullet->getLinearVelocity()) + cross(from_bullet(body.bullet->getAngularVelocity()), from);
+}
+
+// What is beside rises and sinks with what is touched, and does not come towards it: the two are as one surface. Past
+// each other they may go, as a turntable in its floor.
+bool moves_along(const Body& beside, const Body& touched, Vec3 place, Vec3 direction, const Beside& there) {
+    if (beside.kind == RigidKind::Static && touched.kind == RigidKind::Static) return true;
+    const Vec3 apart = velocity_at(touched, place) - velocity_at(beside, place);
+    if (dot(apart, direction) > kApart) return false;
+    const Vec3 up = there.has_way_out ? normalised(there.way_out) : direction;
+    return std::fabs(dot(apart, up)) < kApart;
+}
+
 /// Calls found(beside) for what is near the place, until it says true; whether it did.
 template <class Found>
 bool any_beside(const Surroundings& around, const Touched& touched, Vec3 place, Vec3 direction, Found found,
                 Vec3 level = {}) {
-    const Reach reach{kFlush * scale_of(touched.hull, touched.piece), touched.hull.margin,
-                      touched.body.kind == RigidKind::Static, level};
+    const Reach reach{kFlush * scale_of(touched.hull, touched.piece), touched.hull.margin, is_firm(touched.body),
+                      level};
     const Box box = grown({place, place}, reach.most());
     bool is_any = false;
+    const auto is_one = [&](const Body& body, const Beside& beside) {
+        return &body == &touched.body || moves_along(body, touched.body, place, direction, beside);
+    };
     const auto look_in = [&](const Body& body) {
         for (const Hull* hull = body.hulls; hull && !is_any; hull = hull->next) {
             if (hull == &touched.hull || !overlap(hull->world_box, box, 0)) continue;
             const Beside beside = look_at(body, *hull, place, direction, reach);
-            is_any = beside.is_near && found(beside);
+            is_any = beside.is_near && is_one(body, beside) && found(beside);
         }
         if (!body.mesh || is_any) return;
         const Vec3 seen_from = touched.points.centre;
@@ -177,14 +197,14 @@ bool any_beside(const Surroundings& around, const Touched& touched, Vec3 place, 
             if (is_any || (touched.hull.one_sided && &body == &touched.body && are_same(triangle, touched.hull)))
                 return;
             const Beside beside = look_at(triangle, place, direction, reach, seen_from);
-            is_any = beside.is_near && found(beside);
+            is_any = beside.is_near && is_one(body, beside) && found(beside);
         });
     };
     look_in(touched.body);
-    if (is_any || touched.body.kind != RigidKind::Static) return is_any;
+    if (is_any || !is_firm(touched.body)) return is_any;
     around.tree->visit(box, [&](uint32_t id) {
         const Body& body = around.bodies[id];
-        if (is_any || &body == &touched.body || body.kind != RigidKind::Static) return;
+        if (is_any || &body == &touched.body) return;
         if (!body.is_used || body.is_soft || !body.meets_layer_of(touched.other)) return;
         if (overlap(body.shape.box, box, 0)) look_in(body);
     });
@@ -217,7 +237,7 @@ bool is_face_covered(const Surroundings& around, const Touched& touched, uint32_
                      Vec3 level = {}) {
     const auto covers = [&](const Beside& beside) {
         if (beside.leads_in < kBefore || !beside.has_way_out) return false;
-        if (touched.body.kind != RigidKind::Static && !beside.is_level) return false;
+        if (!is_firm(touched.body) && !beside.is_level) return false;
         return !is_on_face(touched.body, touched.hull, face, place + beside.way_out);
     };
     return any_beside(around, touched, place, normal, covers, level);
@@ -289,9 +309,9 @@ bool find_flush_face(const Touched& touched, Vec3 place, Vec3& normal) {
     return true;
 }
 
-// A face of what stands still pushes, whatever edge of what moves lies on it.
-bool is_still_face(const Touched& touched, Vec3 normal) {
-    if (touched.other.kind != RigidKind::Static) return false;
+// A face of what is firm pushes, whatever edge of what moves lies on it.
+bool is_firm_face(const Touched& touched, Vec3 normal) {
+    if (!is_firm(touched.other)) return false;
     for (uint32_t f = 0; f < touched.piece.face_count; ++f)
         if (!touched.piece.is_face_inner[f] && dot(out_of_face(touched.other, touched.piece, f), normal) > kFacing)
             return true;
@@ -312,7 +332,7 @@ Push turn_to_flush_face(const Surroundings& around, const Touched& touched, std:
         if (touched.hull.covered[facing.face] == 0) return Push::AsFound;
         for (const Vec3 place : places)
             if (!is_face_covered(around, touched, facing.face, wanted, place, open)) return Push::AsFound;
-    } else if (is_still_face(touched, -1 * wanted) ||
+    } else if (is_firm_face(touched, -1 * wanted) ||
                !any_beside(
                    around, touched, places[0], wanted,
                    [](const Beside& beside) { return beside.is_level && beside.leads_in > kRise; }, open)) {
@@ -333,7 +353,7 @@ Vec3 touched_place(const Touched& touched, std::span<const Vec3> places, Vec3 no
 
 Push turn_to_open_face(const Surroundings& around, const Touched& touched, std::span<const Vec3> places, Vec3& normal) {
     if (touched.hull.face_count == 0 || places.empty()) return Push::AsFound;
-    if (touched.body.kind != RigidKind::Static) return turn_to_flush_face(around, touched, places, normal);
+    if (!is_firm(touched.body)) return turn_to_flush_face(around, touched, places, normal);
     const Facing facing = facing_face(touched, normal);
     const Vec3 wanted = normal, touch = touched_place(touched, places, normal);
     if (facing.cosine > kFacing) {

@@ -1,7 +1,8 @@
 // Edges inside what is flat do not push.
 //
 // A touch may push along the normals of the surface that stands there as one, whoever its parts belong to: triangles of
-// a mesh, convex pieces of a body, static bodies side by side. Where a neighbour goes on in the direction in which a
+// a mesh, convex pieces of a body, bodies side by side that no solver moves: static ones, and kinematic ones that rest
+// or move like these. Where a neighbour goes on in the direction in which a
 // touch would push, there is no edge to push from; the touch is then the affair of an open face. Nothing is marked when
 // a mesh comes in: what lies beside a touch is looked for where it lies, so that corners on edges, slivers, doubled
 // points and mixed winding make no difference, nor does it matter which body a neighbour is of.
@@ -13,10 +14,10 @@
 
 namespace cullet::bullet {
 
-/// What stands still and may go on where a piece ends.
+/// What may go on where a piece ends.
 struct Surroundings {
     const Body* bodies = nullptr;   // by id
-    const BoxTree* tree = nullptr;  // of static ones
+    const BoxTree* tree = nullptr;  // of firm ones, see is_firm()
 };
 
 /// A piece or triangle that is touched, and what touches it.
@@ -40,11 +41,11 @@ Push turn_to_open_face(const Surroundings& around, const Touched& touched, std::
 /// The open face of the hull that the piece lies deepest behind or nearest before; false: it has none.
 bool find_open_face(const Surroundings& around, const Touched& touched, Vec3 place, Vec3& normal);
 
-/// Whether inner edges of the piece are looked for: its body stands still, or other pieces of it go on in the plane of
-/// one of its faces. Nothing else of what moves is searched: pieces of shards overlap, and heaps of them have many
+/// Whether inner edges of the piece are looked for: no solver moves its body, or other pieces of it go on in the plane
+/// of one of its faces. Nothing else of what moves is searched: pieces of shards overlap, and heaps of them have many
 /// contacts.
 inline bool may_have_inner_edges(const Body& body, const Hull& hull) {
-    return body.kind == RigidKind::Static || hull.flush != 0;
+    return is_firm(body) || hull.flush != 0;
 }
 
 }  // namespace cullet::bullet

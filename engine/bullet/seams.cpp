@@ -39,7 +39,7 @@ void list_seams(Body& body, std::vector<Seam>& seams) {
     const auto first = static_cast<uint32_t>(seams.size());
     for (Hull* hull = body.hulls; hull; hull = hull->next) {
         const Box box = grown(hull->local_box, kReach);
-        if (overlap(box, changed, kReach)) seams.push_back({box, hull, body.kind == RigidKind::Static, first, 0});
+        if (overlap(box, changed, kReach)) seams.push_back({box, hull, is_firm(body), first, 0});
     }
     const auto end = static_cast<uint32_t>(seams.size());
     for (uint32_t k = first; k < end; ++k) seams[k].end = end;
@@ -48,7 +48,7 @@ void list_seams(Body& body, std::vector<Seam>& seams) {
     });
 }
 
-// Of what stands still faces are inner only where they are covered to their corners. What is covered in part is looked
+// Of what is firm faces are inner only where they are covered to their corners. What is covered in part is looked
 // for where it is touched, see inner_edges.hpp. Of what moves the middle tells: there only faces that go on in one
 // plane are searched. What is known of two pieces stays.
 void mark_seam(std::span<const Seam> seams, uint32_t place) {
@@ -56,7 +56,7 @@ void mark_seam(std::span<const Seam> seams, uint32_t place) {
     for (uint32_t k = p.first; k < p.end && seams[k].box.low.x <= p.box.high.x; ++k) {
         const Seam& q = seams[k];
         if (k == place || (p.hull->has_seams && q.hull->has_seams)) continue;
-        if (overlap(p.box, q.box, 0)) mark_covered(*p.hull, *q.hull, p.stands_still);
+        if (overlap(p.box, q.box, 0)) mark_covered(*p.hull, *q.hull, p.is_firm);
     }
 }
 

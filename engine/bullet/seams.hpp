@@ -18,7 +18,7 @@ void forget_seams(Body& body, std::span<const Ball> lost);
 struct Seam {
     Box box;  // with the reach of seams
     Hull* hull;
-    bool stands_still;    // its body is static
+    bool is_firm;         // its body is
     uint32_t first, end;  // those of its body in the list
 };
 /// Lists the pieces of a body that do not know their seams, and all that are near them.

@@ -73,7 +73,7 @@ void BulletWorld::shift(Vec3 by) {
         shift_body(body, by);
     }
     tree_.shift(by);
-    still_tree_.shift(by);
+    firm_tree_.shift(by);
     for (const Pair& pair : pairs_.rows())
         pair.algorithm->visit_manifolds([&](btPersistentManifold& manifold, const PairRecord&) {
             shift_manifold(manifold, bodies_[pair.a].is_level, bodies_[pair.b].is_level, to_bullet(by));
