@@ -196,7 +196,7 @@ class BulletWorld final : public RigidWorld {
     void lift_new(Body& body, const PutThrough& put);
     void update_sleep(float dt);
     bool may_sleep(Body& body, float dt, const Pace& pace);
-    bool may_come_to_rest(const Body& body, const Pace& pace) const;
+    bool may_come_to_rest(const Body& body, float dt, const Pace& pace) const;
     void still_settling();
     bool has_settled(Body& body, float dt);
     void fall_asleep(Body& body);

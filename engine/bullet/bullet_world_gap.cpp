@@ -53,6 +53,9 @@ constexpr float kBorneShare = 0.5f;     // of its weight, that bears it when it 
 
 // Where there is no gravity nothing holds anything: at rest is what would not leave its place in so long.
 constexpr float kDriftSeconds = 60;
+// Gravity is faint where what falls from rest has gone less than so many times the distance of sleep in the time of
+// sleep. There what falls seems to lie still: something has to bear it. Elsewhere it moves too far to be asked.
+constexpr float kFaintWay = 10;
 // A ball slower than this may be at rest; a faster one that has gone this share of the way that its speed takes it
 // rolls. (From rest down a slope it is a half.)
 constexpr float kRollingSpeed = 0.001f;  // m/s
@@ -315,12 +318,16 @@ float speed_of(const Body& body) {
     return bullet.getLinearVelocity().length() + bullet.getAngularVelocity().length() * body.reach;
 }
 
-// What nothing holds up goes on to move, however slowly it does now: it falls, or drifts where there is no gravity. A
-// ball that rolls goes on too: it has come far for its speed, where what trembles has not.
-bool BulletWorld::may_come_to_rest(const Body& body, const Pace& pace) const {
+// What nothing holds up goes on to move, however slowly it does now: it falls, also together with what touches it, or
+// drifts where there is no gravity. A ball that rolls goes on too: it has come far for its speed, where what trembles
+// has not.
+bool BulletWorld::may_come_to_rest(const Body& body, float dt, const Pace& pace) const {
     const float speed = speed_of(body);
     if (pace.is_weightless) return speed * kDriftSeconds < size_of(body) * kStillDistance;
     if (!body.is_touched) return false;
+    const float gravity = gravity_.length(), patience = pace.slower * kStillSeconds;
+    const bool is_faint = 0.5f * gravity * patience * patience < kFaintWay * kStillDistance;
+    if (is_faint && body.load < kBorneShare * body.mass * gravity * dt) return false;
     if (!is_ball(body) || speed < pace.speed * kRollingSpeed) return true;
     const float gone = (body.bullet->getWorldTransform().getOrigin() - body.anchor.getOrigin()).length();
     return gone < kRollingShare * speed * body.still_seconds;
@@ -349,7 +356,7 @@ bool BulletWorld::may_sleep(Body& body, float dt, const Pace& pace) {
         body.is_touched && !is_ball(body) && speed_of(body) < std::sqrt(size) * pace.speed * kSlowSpeed;
     body.slow_seconds = std::clamp(body.slow_seconds + (is_slow ? dt : -2 * dt), 0.0f, 2 * slow_seconds);
     if (body.is_driven) body.still_seconds = body.slow_seconds = 0;
-    if (!may_come_to_rest(body, pace)) return false;
+    if (!may_come_to_rest(body, dt, pace)) return false;
     if (has_crept(body, pace)) {
         body.idle_wakes = kIdleWakes;
         return true;
