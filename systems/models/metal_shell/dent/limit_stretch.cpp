@@ -7,7 +7,7 @@
 namespace cullet {
 namespace {
 
-constexpr int kRounds = 6, kPullingRounds = 10, kTurnPasses = 3;
+constexpr int kRounds = 6, kMoreRounds = 18, kPullingRounds = 10, kTurnPasses = 3;
 constexpr double kMovedShare = 0.1;               // what the impact moved yields so much less to pulling edges
 constexpr float kShortest = 0.92f, kPush = 0.7f;  // of the original length; how much of what is missing is asked for
 constexpr double kEarly = 0.88;   // of the longest: what only just keeps to its limit is over it after the next dent
@@ -46,6 +46,21 @@ bool is_turned(const MetalView& metal, uint32_t element) {
     const Vec3 before = across(metal, v.start, element), after = across(metal, v.place, element);
     const float both = dot(before, after);
     return both < 0 && dot(normalised(before), normalised(after)) < kTurned;
+}
+
+bool has_long_edge(const MetalView& metal, float most_stretch) {
+    const MetalVertices& vertices = metal.vertices();
+    const MetalSprings& springs = metal.springs();
+    bool is_any = false;
+    for (uint32_t v = 0; v < metal.vertex_count() && !is_any; ++v) {
+        if (!moves(metal, v)) continue;
+        metal.for_each_spring(v, [&](uint32_t other, uint32_t spring) {
+            const Vec3 way = vertices.place[metal.vertex(other)] - vertices.place[metal.vertex(v)];
+            const float longest = (1 + most_stretch) * springs.length[spring];
+            is_any = is_any || (!springs.is_tie[spring] && dot(way, way) > longest * longest);
+        });
+    }
+    return is_any;
 }
 
 }  // namespace
@@ -101,6 +116,13 @@ void limit_stretch(const MetalView& metal, double most_stretch, const Striker& s
         else
             relax_once(metal, static_cast<float>(kEarly * (1 + most_stretch) - 1));
         if (round % 2 == 1 && is_shaped) clear_striker(metal, striker, depth);
+    }
+    // A ball goes in deeper than it is wide, and over dents that are there: six rounds leave what it drew out.
+    if (published != 0 || striker.shape != StrikerShape::Sphere) return;
+    for (int round = 0; round < kMoreRounds; ++round) {
+        if (round % 2 == 0 && !has_long_edge(metal, static_cast<float>(most_stretch))) return;
+        relax_once(metal, static_cast<float>(kEarly * (1 + most_stretch) - 1));
+        if (round % 2 == 1) clear_striker(metal, striker, depth);
     }
 }
 

@@ -15,6 +15,7 @@ constexpr double kDragged = 0.5;     // of the depth
 constexpr double kFacing = 0.05;     // cosine: what looks away from the striker is not crushed
 constexpr int kSweeps = 40;          // of cells, and of vertices
 constexpr double kRelaxation = 1.6;
+constexpr float kSteepest = 0.5f;  // of the field, along the sheet
 
 // m3 that the striker takes of what faces it.
 double crushed_volume(const MetalView& metal, const Striker& striker, double depth) {
@@ -101,6 +102,24 @@ float blended(const MetalView& metal, uint32_t vertex_row) {
     return sum;
 }
 
+// What is beside a ball that went in deeper than it is wide would stand at its side as a wall, longer than the sheet
+// stretches. It is dragged along, so far that the field falls no more steeply than that.
+void drag_along(const MetalView& metal) {
+    MetalVertices& vertices = metal.vertices();
+    float top = 0;
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v) top = std::max(top, vertices.field[metal.vertex(v)]);
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
+        const uint32_t row = metal.vertex(v);
+        vertices.way[row] = vertices.field[row] > 0 ? (top - vertices.field[row]) / kSteepest : kNoWay;
+    }
+    spread_ways(metal, top / kSteepest);
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
+        const uint32_t row = metal.vertex(v);
+        if (!metal.is_pinned(v))
+            vertices.field[row] = std::max(vertices.field[row], top - kSteepest * vertices.way[row]);
+    }
+}
+
 }  // namespace
 
 CrushPlan plan_crush(const MetalView& metal, const Striker& striker, double energy) {
@@ -160,6 +179,7 @@ void raise_body(const MetalView& metal, const Striker& striker, double depth, do
             const double now = double{vertices.field[row]};
             vertices.field[row] = std::max(least(row), static_cast<float>(now + kRelaxation * (sum / weight - now)));
         }
+    drag_along(metal);
 }
 
 }  // namespace cullet

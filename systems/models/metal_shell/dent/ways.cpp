@@ -15,7 +15,7 @@ void spread_ways(const MetalView& metal, float limit) {
     };
     for (uint32_t v = 0; v < count; ++v) {
         vertices.is_queued[first + v] = 0;
-        if (vertices.way[first + v] == 0) push(v);
+        if (vertices.way[first + v] <= limit) push(v);
     }
     while (queued > 0) {
         const uint32_t v = vertices.queued[first + begin];

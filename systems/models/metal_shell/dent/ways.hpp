@@ -6,8 +6,9 @@ namespace cullet {
 
 inline constexpr float kNoWay = 1e30f;
 
-/// Fills MetalVertices.way: the shortest way from any vertex whose way is 0 to each that is at most `limit` away, m;
-/// elsewhere it is kNoWay. Before: 0 or kNoWay. Lengths are those of the original shape.
+/// Fills MetalVertices.way, m: what stands there before, or a neighbour's way and the edge to it, where that is shorter
+/// and at most `limit`. So with 0 where it begins and kNoWay elsewhere it is the shortest way from there. Lengths are
+/// those of the original shape.
 void spread_ways(const MetalView& metal, float limit);
 
 }  // namespace cullet
