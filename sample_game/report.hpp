@@ -97,8 +97,9 @@ struct Report {
         std::string system;  // that took most of it
         float system_ms = 0;
     } worst_frame;
-    double hitch =
-        0;  // worst frame that broke something / (median frame without damage + the budget's time); 0: none broke
+    /// Worst frame that broke something / (median frame without damage + the budget's time); where nothing broke, the
+    /// worst from the first on that worked on a hit. 0: there was none.
+    double hitch = 0;
     struct {
         uint64_t count = 0;
         float p50_ms = 0, p99_ms = 0, max_ms = 0;

@@ -218,8 +218,12 @@ void fill_times(const RunRecord& record, Report& report) {
     report.yardsticks["budget_ms"] = budget_ms;
     if (budget_ms > 0)
         report.damage_frames.p99_budgets = static_cast<double>(percentile(damage_alone, 0.99)) / budget_ms;
-    report.hitch =
-        static_cast<double>(report.fracture_frames.max_ms) / (static_cast<double>(percentile(quiet, 0.5)) + budget_ms);
+    // What dents does so in the frame after it was worked on, or later.
+    const auto first = std::find(record.has_damage.begin(), record.has_damage.end(), true) - record.has_damage.begin();
+    const float worst = broke.empty() && !damage.empty()
+                            ? *std::max_element(record.frame_ms.begin() + first, record.frame_ms.end())
+                            : report.fracture_frames.max_ms;
+    report.hitch = static_cast<double>(worst) / (static_cast<double>(percentile(quiet, 0.5)) + budget_ms);
 }
 
 void fill_worst_frame(const RunRecord& record, Report& report) {

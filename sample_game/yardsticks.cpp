@@ -13,6 +13,7 @@ namespace {
 
 constexpr uint64_t kMeasureFor = 20'000'000;  // ns
 constexpr double kUnitsAVertex = 5;
+constexpr double kNominal = 2;  // ns (systems/costs.hpp)
 
 }  // namespace
 
@@ -32,6 +33,8 @@ std::map<std::string, double> measure_yardsticks(const Model& model) {
         state.vertices.velocity.set(shell.vertex(v), {0.01f * static_cast<float>(v % 7), 0, 0.01f});
     const float dt = state.shells.time_step[state.shell_of(row)];
     uint64_t least = ~uint64_t{0};
+    // What does not crack has no rows for hidden steps.
+    if (HiddenStep(shell, dt, 0, false).pack_count == 0) return {{"unit_ns", kNominal}};
     const uint64_t start = now_ns();
     for (uint32_t turn = 0; now_ns() - start < kMeasureFor; ++turn) {
         const HiddenStep step(shell, dt, 0.15f * dt, turn & 1);
