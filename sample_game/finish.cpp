@@ -116,7 +116,9 @@ FinishLook roof_tile(const FinishPlace& place) {
 FinishLook brick(const FinishPlace& place) {
     constexpr float kLength = 0.25f, kHeight = 1.0f / 12, kJoint = 0.012f;
     const bool is_crack = place.kind == FaceKind::Crack;
-    if (place.kind == FaceKind::Outer && place.normal.y > 0.3f && place.normal.y < 0.97f) return roof_tile(place);
+    const bool is_roof =
+        place.kind == FaceKind::Outer && !place.is_model && place.normal.y > 0.3f && place.normal.y < 0.97f;
+    if (is_roof) return roof_tile(place);
     const Flat flat = flat_of(place.point, place.normal);
     const float height = is_crack ? place.point.y : flat.v;
     const int32_t course = whole(height / kHeight);

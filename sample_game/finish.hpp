@@ -35,6 +35,7 @@ struct FinishPlace {
     Vec3 point, normal;   // body coordinates, m; the normal of its triangle
     float footprint = 0;  // m that a pixel covers; what is finer turns into its average
     FaceKind kind = FaceKind::Outer;
+    bool is_model = false;  // of a thing that is smaller than real ones: its pattern is, too
 };
 
 struct FinishLook {

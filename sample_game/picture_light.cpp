@@ -187,7 +187,7 @@ Vec3 PictureLight::finished(const SeenSurface& surface, const Light& light, Vec3
 
 // A dull mirror shows a broad piece of what is around, by rays turned anew at each place.
 Vec3 PictureLight::mirrored_light(const SeenSurface& surface, Vec3 direction) const {
-    constexpr uint32_t kDullRays = 8;
+    constexpr uint32_t kDullRays = 5;
     const auto mirror = [&](Vec3 normal) { return direction - 2 * dot(direction, normal) * normal; };
     const Vec3 dull = hemisphere(mirror(surface.normal));
     if (surface.spread > 0.7f) return dull;

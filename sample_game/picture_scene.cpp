@@ -149,6 +149,7 @@ void PictureScene::finish(const Triangles& from, const RayScene::Hit& hit, Vec3 
     place.normal = normalised(cross(b - a, c - a));
     place.footprint = surface.distance * pixel_angle / std::sqrt(slope) / size;
     place.kind = surface.kind;
+    place.is_model = size < 1;
     const FinishLook look = finish_at(body.finish, place, surface.colour, surface.gloss);
     surface.has_finish = true;
     surface.colour = look.colour;

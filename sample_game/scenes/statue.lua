@@ -21,7 +21,7 @@ game.camera{eye = {1.9, 1.35, 2.5}, target = {0.1, 0.5, 0}, field_of_view = 0.72
 game.sun{towards = {-0.5, 0.75, 0.6}, strength = 2.3}
 game.floor()
 local top = 0.6
-game.box{low = {-0.6 * size, 0, -0.3 * size}, high = {0.6 * size, top, 0.3 * size}, colour = {0.42, 0.41, 0.39}}
+game.box{low = {-0.6 * size, 0, -0.3 * size}, high = {0.6 * size, top, 0.3 * size}, colour = {0.42, 0.41, 0.39}, finish = "concrete"}
 game.spawn{cooked = statue, at = {0, top, 0}, pivot = {0, 0, 0}}
 -- It is let go so that it meets the shoulder, as high as that whatever its speed.
 local way = 2.5
