@@ -725,7 +725,7 @@ void BulletWorld::list_manifolds() {
         pair.algorithm->visit_manifolds([&](btPersistentManifold& m, const PairRecord& record) {
             manifolds_.push_back({pair.a, pair.b, static_cast<uint32_t>(m.m_companionIdA),
                                   static_cast<uint32_t>(m.m_companionIdB), &m, record.crack != nullptr,
-                                  pair.algorithm->grip()});
+                                  pair.algorithm->grip(), pair.algorithm->is_born_deep()});
         });
 }
 
@@ -777,7 +777,8 @@ void BulletWorld::gather_contacts() {
             const Vec3 point = 0.5f * (from_bullet(p.m_positionWorldOnA) + from_bullet(p.m_positionWorldOnB));
             const Vec3 normal = from_bullet(p.m_normalWorldOnB);
             const float speed = dot(moving_b.at(point) - moving_a.at(point), normal);
-            const float overlap = m.grip > 0 ? 0 : -p.m_distance1 / scale;  // of what is to be pushed out
+            const bool is_pushed = !(m.grip > 0) && !m.is_born_deep;
+            const float overlap = is_pushed ? -p.m_distance1 / scale : 0;
             a.overlap = std::max(a.overlap, overlap);
             b.overlap = std::max(b.overlap, overlap);
             if (b.kind == RigidKind::Static) a.sunk = std::max(a.sunk, overlap);
@@ -906,7 +907,9 @@ void BulletWorld::solve_contacts(float dt) {
         const SortedManifold& first = manifolds_[pair.first];
         const Body &a = bodies_[first.a], &b = bodies_[first.b];
         const float scale = scale_of(a, b);
-        const float most_push = is_asleep(a.id) || is_asleep(b.id) ? scale * kPushedOffSleepers : kFar;
+        const float most_push = first.is_born_deep                   ? 0
+                                : is_asleep(a.id) || is_asleep(b.id) ? scale * kPushedOffSleepers
+                                                                     : kFar;
         solver_.add_pair(a.number, b.number, pair.grip, most_push, !(pair.grip > 0) && are_siblings(a, b), scale);
         for (uint32_t m = pair.first; m < pair.end; ++m)
             if (manifolds_[m].manifold) solver_.add_contacts(*manifolds_[m].manifold);

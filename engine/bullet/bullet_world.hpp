@@ -112,8 +112,9 @@ class BulletWorld final : public RigidWorld {
         RigidId a, b;
         uint32_t cell_a, cell_b;
         btPersistentManifold* manifold;
-        bool is_at_crack;  // of siblings that are not apart yet
-        float grip;        // N s, see PairAlgorithm::grip()
+        bool is_at_crack;   // of siblings that are not apart yet
+        float grip;         // N s, see PairAlgorithm::grip()
+        bool is_born_deep;  // see PairAlgorithm::is_born_deep()
     };
 
     struct Scattered {

@@ -48,6 +48,7 @@ constexpr float kWedgedDepth = 0.003f, kFreeDepth = 0.0015f;  // m, from and unt
 constexpr float kComesOut = 0.8f;
 constexpr float kWedgedSeconds = 2;
 constexpr float kWedgedWeights = 10;
+constexpr float kBornDeep = -1;  // s
 
 // Displacement is convex in the point: the corner of a box that moved farthest bounds all points in it. Of the middle
 // and of the half sides: (R' - R) p + (o' - o).
@@ -218,6 +219,7 @@ void PairAlgorithm::process(PairScratch& scratch, std::span<const NewbornPieces>
         return;
     }
     follow(a, b);
+    const bool is_new = !is_fresh_;
     if (!is_fresh_ || travelled_ >= records_until_) find_records(a, b, scratch);
     is_fresh_ = true;
     take_newborn(newborn);
@@ -231,11 +233,20 @@ void PairAlgorithm::process(PairScratch& scratch, std::span<const NewbornPieces>
         else if (record->manifold)
             follow_points(*record, a, b);
     }
-    note_wedged(choose_best(scratch.offers));
+    const float deepest = choose_best(scratch.offers);
+    if (is_new && newborn.empty() && are_siblings(a, b)) note_born_deep(deepest);
+    note_wedged(deepest);
+}
+
+// A cut goes along cells, whose hulls lie in each other by centimetres there. Pushed out of that, a window of 40 kg was
+// out of its pane in five steps.
+void PairAlgorithm::note_born_deep(float deepest) {
+    if (deepest > scale() * kWedgedDepth) deep_seconds_ = kBornDeep;
 }
 
 // What stands in the ground is pushed out for as long as it takes.
 void PairAlgorithm::note_wedged(float deepest) {
+    if (is_born_deep() && deepest > scale() * kFreeDepth) return;
     const bool is_ground = work_->bodies[a_].is_level || work_->bodies[b_].is_level;
     const bool is_deep = deepest > scale() * (least_deep_ < kFar ? kFreeDepth : kWedgedDepth);
     if (!is_deep || is_ground) {

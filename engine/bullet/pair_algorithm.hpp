@@ -117,6 +117,8 @@ class PairAlgorithm {
     /// N s that hold the two to each other in this step, all contacts together and in any direction; 0 unless they are
     /// wedged.
     float grip() const;
+    /// They were cut from one body and have lain in each other since: what cells overlap by is no touch to push out of.
+    bool is_born_deep() const { return deep_seconds_ < 0; }
     /// Whether two pieces, by their ordinals, have lain in each other since birth.
     bool meet_at_crack(uint32_t a, uint32_t b) const;
     /// The axis of two pieces that touch, by their ordinals; zero when they do not.
@@ -145,6 +147,7 @@ class PairAlgorithm {
     void drop_through_seams(std::vector<Offer>& offers);
     void remove_unchosen(const std::vector<Offer>& offers);
     float choose_best(std::vector<Offer>& offers);
+    void note_born_deep(float deepest);
     void note_wedged(float deepest);
 
     RigidId a_ = kNoRigid, b_ = kNoRigid;  // a_ < b_
@@ -155,7 +158,8 @@ class PairAlgorithm {
     // The farthest way of any point of the smaller body in the frame of the larger one, summed over the steps: no gap
     // between their pieces changed by more.
     double travelled_ = 0, step_travel_ = 0;
-    float deep_seconds_ = 0;    // that they have lain deep in each other, and came out of it by nothing
+    // That they have lain deep in each other, and came out of it by nothing; negative: since they were born.
+    float deep_seconds_ = 0;
     float least_deep_ = kFar;   // m of overlap in that time
     double records_until_ = 0;  // records_ holds all pieces within kCandidateRange while travelled_ is less
     btTransform relative_ = btTransform::getIdentity();  // the smaller body in the frame of the larger one
