@@ -78,7 +78,7 @@ TEST(Options, WhatMakesNoSenseIsRefusedInOneSentence) {
         {"run", "wall", "--threads", "0"},
         {"run", "wall", "--repeat", "0"},
         {"run", "wall", "--hash", "sometimes"},
-        {"run", "wall", "--model", "lattice"},
+        {"run", "wall", "--model", "jelly"},
         {"run", "wall", "--video"},
         {"run", "wall", "--draw", "10"},
         {"run", "wall", "--contact-sheet"},

@@ -9,7 +9,9 @@
 namespace cullet::lattice {
 namespace {
 
-constexpr uint64_t kWorkAStep = 1 << 18;  // multiplications: a tenth of a millisecond
+constexpr uint64_t kWorkAStep = 1 << 18;       // multiplications: a tenth of a millisecond
+constexpr uint64_t kUnitsCutRow = 1500;        // a triangle or a tetrahedron: 3 us
+constexpr uint64_t kUnitsHullTriangle = 1500;  // of a piece
 constexpr uint32_t kHullDepth = 4;
 constexpr double kHullExcess = 1.3;  // of a piece's hulls: closer ones take as long again
 constexpr size_t kFewestCorners = 4;
@@ -189,7 +191,8 @@ void begin_run(const RunRows& rows, Row<Tasks> task) {
     room.stage = RunStage::Solve;
 }
 
-bool advance_run(const RunRows& rows, Row<Tasks> task) {
+bool advance_run(const RunRows& rows, Row<Tasks> task, uint64_t& units) {
+    units = 0;
     BreakingRoom& room_of_break = breaking(rows, task);
     const KnownSolid& known = known_of(rows, rows.tasks.source[task]);
     RoomOfRun& room = room_of(room_of_break);
@@ -204,9 +207,11 @@ bool advance_run(const RunRows& rows, Row<Tasks> task) {
             break;
         case RunStage::Skins:
             cut_skins(rows, task, known, room_of_break);
+            units = kUnitsCutRow * (known.cooked.mesh.triangles.size() + known.cooked.solid.lattice.fine.size());
             room.stage = room_of_break.broken.pieces.size() > 1 ? RunStage::Hulls : RunStage::Done;
             break;
         case RunStage::Hulls:
+            units = kUnitsHullTriangle * room_of_break.broken.pieces[room.piece].triangles.count;
             choose_hulls(rows, room, room_of_break.broken);
             if (room.piece == room_of_break.broken.pieces.size()) room.stage = RunStage::Done;
             break;

@@ -40,8 +40,9 @@ struct RoomOfRun {
 void prepare_rooms(const RunRows& rows, Row<Structures> structure);
 /// The task's run begins, in the room that the task has taken: its blow stands in LatticeRuns.
 void begin_run(const RunRows& rows, Row<Tasks> task);
-/// One step of the task's run, which changes nothing but its room. True: it is done.
-bool advance_run(const RunRows& rows, Row<Tasks> task);
+/// One step of the task's run, which changes nothing but its room. True: it is done. `units`: what it cost beyond a
+/// step of the solve.
+bool advance_run(const RunRows& rows, Row<Tasks> task, uint64_t& units);
 
 const RoomOfRun& run_of(const RunRows& rows, Row<Tasks> task);
 

@@ -56,8 +56,9 @@ void restore_run(RunRows& rows, Row<Tasks> task) {
     prepare_rooms(rows, rows.tasks.source[task]);
     if (!take_room(rows, task)) return;
     begin_run(rows, task);
+    uint64_t units = 0;  // paid already
     for (uint32_t step = 0; step < rows.tasks.steps_done[task]; ++step)
-        if (advance_run(rows, task)) return;
+        if (advance_run(rows, task, units)) return;
 }
 
 void restore_body(BodyRows& rows, Row<Bodies> body) {

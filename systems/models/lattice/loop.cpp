@@ -4,11 +4,7 @@
 #include "systems/tasks/birth_cost.hpp"
 
 namespace cullet::lattice {
-namespace {
-
-constexpr uint64_t kUnitsAStep = 100'000;  // 0.2 ms
-
-}  // namespace
+namespace {}  // namespace
 
 InnerLoop<TaskWorld> make_loop() {
     InnerLoop<TaskWorld> loop;

@@ -4,8 +4,9 @@
 
 namespace cullet::lattice {
 
-inline constexpr float kStep = 1e-3f;         // s of the run's clock, which counts steps alone
-inline constexpr uint32_t kMostSteps = 4096;  // of a run: it ends when it is done, which nobody knows before
+inline constexpr float kStep = 1e-3f;             // s of the run's clock, which counts steps alone
+inline constexpr uint64_t kUnitsAStep = 400'000;  // 0.8 ms of assembling, factoring or stress
+inline constexpr uint32_t kMostSteps = 4096;      // of a run: it ends when it is done, which nobody knows before
 
 InnerLoop<TaskWorld> make_loop();
 

@@ -1,7 +1,10 @@
 #include "systems/models/lattice/systems.hpp"
 
+#include <algorithm>
+
 #include "systems/models/lattice/break_rooms.hpp"
 #include "systems/models/lattice/gather_blow.hpp"
+#include "systems/models/lattice/loop.hpp"
 
 namespace cullet::lattice {
 
@@ -15,7 +18,13 @@ void work_break(Of<Tasks> task, BodyRows& rows) {
     Tasks& tasks = rows.tasks;
     tasks.steps_granted[t] -= tasks.steps_granted[t] > 0;
     ++tasks.steps_done[t];
-    if (!advance_run(rows, t)) return;
+    uint64_t units = 0;
+    const bool is_done = advance_run(rows, t, units);
+    // What was granted for more steps pays for a long one; the rest is owed.
+    const auto paid = static_cast<uint32_t>(std::min<uint64_t>(tasks.steps_granted[t], units / kUnitsAStep));
+    tasks.steps_granted[t] -= paid;
+    tasks.units_owed[t] += units - paid * kUnitsAStep;
+    if (!is_done) return;
     const RoomOfRun& run = run_of(rows, t);
     const auto pieces = static_cast<uint32_t>(room_of_task(rows, t)->broken.pieces.size());
     LatticeResults& results = rows.lattice_results;

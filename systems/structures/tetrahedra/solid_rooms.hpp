@@ -81,7 +81,7 @@ struct SolidRooms {
 };
 
 /// So many tasks break solids at a time; others wait.
-inline constexpr uint32_t kSolidRooms = 4;
+inline constexpr uint32_t kSolidRooms = 8;
 
 /// Of what a structure was cooked; null: nobody has asked for it yet.
 const KnownSolid* known_solid(const SolidRows& rows, Row<Structures> structure);

@@ -141,7 +141,7 @@ TEST(SolidWorld, AnyNumberOfThreadsGivesTheSameBytes) {
 }
 
 TEST(SolidWorld, AWorldThatIsLoadedInMidBreakGoesOnWithTheSameBytes) {
-    World world = two_rings(settings_on(1, 1'500'000));
+    World world = two_rings(settings_on(1, 4'000'000));
     uint32_t loads = 0;
     for (int frame = 0; frame < 90; ++frame) {
         bool is_open = false;
@@ -149,7 +149,7 @@ TEST(SolidWorld, AWorldThatIsLoadedInMidBreakGoesOnWithTheSameBytes) {
             is_open = is_open || static_cast<TaskState>(state_of(world).tasks.state[t]) != TaskState::Free;
         if (is_open || frame % 20 == 0) {
             const std::vector<uint8_t> bytes = value_of(world.snapshot());
-            World loaded = test::make_world(settings_on(2, 1'500'000));
+            World loaded = test::make_world(settings_on(2, 4'000'000));
             const Result<void> restored = loaded.restore(bytes.data(), bytes.size());
             ASSERT_TRUE(restored.ok()) << restored.error();
             ASSERT_EQ(loaded.hash(), world.hash());
