@@ -11,7 +11,7 @@
 #include "engine/import/folder_files.hpp"
 #include "engine/import/gltf/read_gltf.hpp"
 #include "engine/import/import.hpp"
-#include "engine/import/obj_lines.hpp"
+#include "engine/import/obj.hpp"
 #include "engine/import/passed_over.hpp"
 #include "engine/import/ply.hpp"
 #include "engine/import/stl.hpp"
@@ -125,13 +125,16 @@ Result<Corners> read_in_its_unit(const std::string& path) {
         notes);
 }
 
-Result<Corners> read_obj(const std::string& path) {
-    auto files = std::make_unique<FolderFiles>(path);
-    auto bytes = bytes_of(*files, path);
+Result<Corners> read_obj_with_materials(const std::string& path) {
+    FolderFiles files(path);
+    auto bytes = bytes_of(files, path);
     if (!bytes) return Error{bytes.error()};
-    const std::string text = plain_text(std::move(*bytes));
-    if (const Result<void> sound = check_obj(text, path); !sound) return Error{sound.error()};
-    return with_notes(read_by_assimp(std::move(files), path, as_it_stands), notes_of_obj(text));
+    return read_obj(std::move(*bytes), path, [&](const std::string& name) -> std::optional<std::string> {
+        const std::string beside = path.substr(0, path.rfind('/') + 1) + name;
+        const std::unique_ptr<Assimp::IOStream> stream(files.open_as_it_is(beside));
+        if (stream == nullptr) return std::nullopt;
+        return FolderFiles::whole(*stream);
+    });
 }
 
 Result<Corners> read_gltf(const std::string& path) {
@@ -168,7 +171,7 @@ Result<Corners> read_corners(const std::string& path) {
     if (extension == ".dae") return read_collada(path);
     if (extension == ".zae") return read_packed_collada(path);
     if (extension == ".fbx") return read_fbx(path);
-    if (extension == ".obj") return read_obj(path);
+    if (extension == ".obj") return read_obj_with_materials(path);
     if (extension == ".amf" || extension == ".x3d") return read_in_its_unit(path);
     return read_by_assimp(std::make_unique<FolderFiles>(path), path, as_it_stands);
 }

@@ -1,7 +1,5 @@
-// How assimp opens files: those that a model may open (import_folder.hpp), and no others. An OBJ file is handed on with
-// ".5" written "0.5", since assimp 5.2 takes the former for no number, and the vertex for none; and without comments
-// behind points and faces, which it takes for corners. Text is handed on as UTF-8 without a byte order mark, which
-// assimp takes for a part of the first word.
+// How assimp opens files: those that a model may open (import_folder.hpp), and no others. Text is handed on as UTF-8
+// without a byte order mark, which assimp takes for a part of the first word.
 #pragma once
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/MemoryIOWrapper.h>
@@ -48,10 +46,8 @@ class FolderFiles : public Assimp::DefaultIOSystem {
         const std::string_view front(bytes, stream->Read(bytes, 1, sizeof bytes));
         stream->Seek(0, aiOrigin_SET);
         const bool is_coded = has_byte_order_mark(front) || (kTexts.count(extension) > 0 && is_like_utf16(front));
-        if (!is_coded && extension != ".obj") return stream.release();
-        std::string all = whole(*stream);
-        std::string text = plain_text(std::move(all));
-        return in_memory(extension == ".obj" ? plain_obj(text) : text);
+        if (!is_coded) return stream.release();
+        return in_memory(plain_text(whole(*stream)));
     }
 
     static std::string whole(Assimp::IOStream& stream) {
@@ -67,41 +63,13 @@ class FolderFiles : public Assimp::DefaultIOSystem {
     }
 
     /// Formats of text, which may be UTF-16 without a mark. With a mark any file is text.
-    inline static const std::set<std::string> kTexts{".obj", ".mtl", ".off",  ".dae", ".fbx", ".x3d", ".amf", ".ase",
-                                                     ".ac",  ".nff", ".enff", ".raw", ".xml", ".smd", ".x",   ".dxf"};
+    inline static const std::set<std::string> kTexts{".off", ".dae",  ".fbx", ".x3d", ".amf", ".ase", ".ac",
+                                                     ".nff", ".enff", ".raw", ".xml", ".smd", ".x",   ".dxf"};
 
     static Assimp::IOStream* in_memory(const std::string& text) {
         auto bytes = std::make_unique<uint8_t[]>(text.size());
         std::memcpy(bytes.get(), text.data(), text.size());
         return new Assimp::MemoryIOStream(bytes.release(), text.size(), true);
-    }
-
-    static bool is_blank(char c) { return c == ' ' || c == '\t'; }
-
-    /// Lines of points, normals and uvs ("v", "vn", "vt") with ".5" written "0.5", and these, faces, lines and points
-    /// without comments behind them; the others as they are. A line ends with LF, CR or both, and goes on in the next
-    /// one when a backslash stands before that.
-    static std::string plain_obj(const std::string& text) {
-        std::string out;
-        out.reserve(text.size());
-        bool is_vertex = false, names_corners = false, is_comment = false;
-        char before = '\n';  // of this line: '\n' at its beginning, ' ' where it goes on
-        for (size_t i = 0; i < text.size(); ++i) {
-            const char c = text[i];
-            const bool ends = c == '\n' || c == '\r', is_behind_blank = is_blank(before);
-            if (before == '\n')
-                is_vertex = c == 'v', names_corners = c == 'f' || c == 'l' || c == 'p', is_comment = false;
-            is_comment = !ends && (is_comment || ((is_vertex || names_corners) && c == '#' && is_behind_blank));
-            if (is_vertex && !is_comment && c == '.' && is_behind_blank) out += '0';
-            // Behind the last number a blank is taken for one more.
-            while ((is_vertex || names_corners) && (ends || is_comment) && !out.empty() && is_blank(out.back()))
-                out.pop_back();
-            if (!is_comment) out += c;
-            const size_t end = c == '\n' && i > 0 && text[i - 1] == '\r' ? i - 1 : i;
-            const bool goes_on = end > 0 && text[end - 1] == '\\';
-            before = !ends ? c : goes_on ? ' ' : '\n';
-        }
-        return out;
     }
 
     std::string model_;

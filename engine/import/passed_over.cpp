@@ -73,15 +73,4 @@ std::vector<std::string> notes_of_fbx(std::string_view bytes) {
     return notes;
 }
 
-std::vector<std::string> notes_of_obj(std::string_view bytes) {
-    uint64_t curves = 0;
-    Words words(bytes);
-    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-        curves += word == "surf" || word == "curv";
-        words.skip_line();
-    }
-    if (curves == 0) return {};
-    return {counted(curves, "curve or curved surface was", "curves or curved surfaces were") + " left out."};
-}
-
 }  // namespace cullet

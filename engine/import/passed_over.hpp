@@ -1,4 +1,4 @@
-// What assimp passes over in FBX and OBJ without a word, told from the bytes of the file.
+// What assimp passes over in FBX without a word, told from the bytes of the file.
 #pragma once
 #include <string>
 #include <string_view>
@@ -8,8 +8,5 @@ namespace cullet {
 
 /// Text or binary: a unit that is not named, and geometry of classes that are no meshes.
 std::vector<std::string> notes_of_fbx(std::string_view bytes);
-
-/// Free-form curves and surfaces.
-std::vector<std::string> notes_of_obj(std::string_view bytes);
 
 }  // namespace cullet

@@ -60,11 +60,5 @@ TEST(PassedOver, CutOffFilesDoNoHarm) {
         for (size_t size = 0; size <= whole.size(); ++size) notes_of_fbx(whole.substr(0, size));
 }
 
-TEST(PassedOver, CurvesOfAnObjAreCounted) {
-    EXPECT_EQ(notes_of_obj("v 0 0 0\n# surf\nsurface 1\n"), Notes{});
-    EXPECT_EQ(notes_of_obj("surf 0 1\n"), Notes{"1 curve or curved surface was left out."});
-    EXPECT_EQ(notes_of_obj("surf 0 1\n curv 0 1\n"), Notes{"2 curves or curved surfaces were left out."});
-}
-
 }  // namespace
 }  // namespace cullet
