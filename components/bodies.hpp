@@ -9,6 +9,7 @@ namespace cullet {
 enum class BodyKind : uint8_t { Free = 0, Static, Kinematic, Dynamic, Scenery };
 
 struct Models;
+struct ModelMeshes;
 struct SoftBodies;
 
 /// Of Bodies::is_owed_births. The second: its drawn mesh found no room either, and is still the one before the hit. The
@@ -44,6 +45,7 @@ struct Bodies : RangeTable<Bodies> {
     Column<uint64_t> user_data{*this, "user_data"};
     Column<uint8_t> is_breakable{*this, "is_breakable"};
     Column<float> strength_scale{*this, "strength_scale"};
+    Column<uint64_t> strength_seed{*this, "strength_seed"};  // of what is intact; 0: as its model has it
     Column<uint8_t> is_asleep{*this, "is_asleep"};
     Column<uint8_t> hold_count{*this, "hold_count"};  // open tasks that hold it, as body or as striker
     Column<uint8_t> has_pins{*this, "has_pins"};      // some vertex is pinned: the body is static in the rigid world
@@ -61,7 +63,8 @@ struct Bodies : RangeTable<Bodies> {
     Column<uint32_t> colour{*this, "colour"};                              // stable number for pictures
     // Drawn mesh in view space.
     Column<std::array<float, 6>> drawn_box{*this, "drawn_box", "m", Keep::Scratch};  // low, high; body frame
-    Column<Range> view_vertices{*this, "view_vertices"};
+    Column<Row<ModelMeshes>> model_mesh{*this, "model_mesh"};  // what it shows while it is intact; none: rows of its own
+    Column<Range> view_vertices{*this, "view_vertices"};       // of capacity 0 where they are those of model_mesh
     Column<Range> view_indices{*this, "view_indices"};
     Column<std::array<uint32_t, kMostRuns>> run_indices{*this, "run_indices"};  // by kind, then by drawn material
     Column<std::array<uint16_t, kMostDrawnMaterials>> drawn_materials{*this, "drawn_materials"};  // rising; rest 0
@@ -85,7 +88,21 @@ struct Models : Table<Models> {
     static constexpr const char* kName = "models";
     Column<uint32_t> generation{*this, "generation"};
     Column<Row<Structures>> structure{*this, "structure"};
+    Column<Row<ModelMeshes>> mesh{*this, "mesh"};  // none before its first body
     Column<uint8_t> is_used{*this, "is_used"};
+};
+
+/// One row is the drawn mesh of a model, which its intact bodies show. Its users: the model, and each of them.
+struct ModelMeshes : RangeTable<ModelMeshes> {
+    using RangeTable::RangeTable;
+    static constexpr const char* kName = "model_meshes";
+    Column<uint32_t> users{*this, "users"};
+    Column<Range> vertices{*this, "vertices"};
+    Column<Range> indices{*this, "indices"};
+    // As of a body.
+    Column<std::array<uint32_t, kMostRuns>> run_indices{*this, "run_indices"};
+    Column<std::array<uint16_t, kMostDrawnMaterials>> drawn_materials{*this, "drawn_materials"};
+    Column<std::array<float, 6>> drawn_box{*this, "drawn_box", "m"};
 };
 
 template <>

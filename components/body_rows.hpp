@@ -12,9 +12,10 @@ struct TablesOfBodies {
     Bodies bodies{limits.bodies, limits.bodies};
     PinBoxes pin_boxes{4 * limits.bodies + 64};
     FragmentAges fragment_ages{limits.bodies};
-    ViewVertices view_vertices{limits.view_vertices, limits.bodies};
-    ViewIndices view_indices{limits.view_vertices * 2, limits.bodies};
+    ViewVertices view_vertices{limits.view_vertices, limits.bodies + limits.models};
+    ViewIndices view_indices{limits.view_vertices * 2, limits.bodies + limits.models};
     QuickBodies quick_bodies{limits.bodies};
+    ModelMeshes model_meshes{limits.models + limits.bodies, limits.models + limits.bodies};
 };
 struct BodyRows : RunRows, TablesOfBodies {
     BodyRows(const Limits& l, const MaterialRows& of_what) : RunRows(l, of_what), TablesOfBodies{l} {}

@@ -33,6 +33,7 @@ struct Tasks : Table<Tasks> {
     Column<Vec3> start_velocity{*this, "start_velocity", "m/s"};   // V of the centre of mass, body axes
     Column<Vec3> start_spin{*this, "start_spin", "rad/s"};         // w, body axes
     Column<float> strength_scale{*this, "strength_scale"};         // the game's; infinite strength never cracks
+    Column<uint64_t> strength_seed{*this, "strength_seed"};        // of a working copy that knows only the model's; or 0
     Column<uint32_t> steps_done{*this, "steps_done"};              // since the last (re)start
     Column<uint32_t> steps_granted{*this, "steps_granted"};        // this frame
     Column<uint32_t> crack_count{*this, "crack_count"};            // cut edges in this run

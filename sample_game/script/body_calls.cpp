@@ -144,7 +144,7 @@ int spawn(lua_State* lua) {
     script_of(lua).act(lua);
     std::vector<const char*> known = names_of_cook();
     for (const char* name : {"cooked", "at", "turn", "pivot", "velocity", "spin", "friction", "restitution",
-                             "rolling_friction", "strength_scale", "breakable", "pins"})
+                             "rolling_friction", "strength_scale", "strength_seed", "breakable", "pins"})
         known.push_back(name);
     add_names(known, all_spawn_settings());
     const Arguments given(lua, "game.spawn", known);
@@ -168,6 +168,8 @@ int spawn(lua_State* lua) {
     settings.motion = given.motion();
     settings.contact = given.contact();
     settings.strength_scale = given.real("strength_scale", {"a number above 0", 1e-6, HUGE_VAL}, 1);
+    settings.strength_seed =
+        static_cast<uint64_t>(given.number("strength_seed", {"a whole number from 0 to 1e15", 0, 1e15}, 0));
     settings.is_breakable = given.is("breakable", true);
     const std::vector<Box> pins = pins_of(lua, given);
     settings.pins = pins.data();

@@ -6,6 +6,7 @@
 #include "systems/api/checks.hpp"
 #include "systems/api/model_row.hpp"
 #include "systems/bodies/body_rows.hpp"
+#include "systems/bodies/model_mesh.hpp"
 #include "systems/bodies/rigid_shape.hpp"
 #include "systems/bodies/settled_pose.hpp"
 #include "systems/cook/materials.hpp"
@@ -95,7 +96,12 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     }
     Bodies& bodies = state.bodies;
     bodies.structure[body] = structure;
-    if (!take_view(state, body, settings.is_breakable)) {
+    const bool is_models = structure == shared;  // drawn as all others of the model, until it cracks
+    Row<ModelMeshes>& mesh = state.models.mesh[model];
+    const bool is_drawn = is_models && mesh.exists();
+    if (is_drawn) {
+        show_model_mesh(state, body, mesh);
+    } else if (!take_view(state, body, settings.is_breakable && !is_models)) {
         free_body(state, body);
         return Error{"limits.view_vertices is reached (" + std::to_string(state.view_vertices.limit()) +
                      "); raise it."};
@@ -112,6 +118,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
         return Error{"no room for " + std::to_string(settings.pin_count) + " pin boxes; raise limits.bodies."};
     }
     bodies.strength_scale[body] = std::min(settings.strength_scale, kNeverCracks);
+    bodies.strength_seed[body] = settings.strength_seed;
     take_mass_properties(state.bodies, state.structures, body,
                          calls_of(state.structures, structure).radius(state, structure));
     const Result<ShellRoom> room = models.spawn_body(state, body, spawning);
@@ -123,9 +130,12 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     d.arena.reset();
     d.rigid->add(body, describe_rigid(state.bodies, state.structures, body, convex_pieces(state, structure, d.arena)));
     if (take_settled_pose(bodies, *d.rigid, body)) models.follow(state, body);
-    calls_of(state.structures, structure).draw(state, body);
     bodies.drawn_frame[body] = d.step_info.frame;
-    bound_view(bodies, body, state.view_vertices, state.view_indices, d.view_boxes);
+    if (!is_drawn) {
+        calls_of(state.structures, structure).draw(state, body);
+        bound_view(bodies, body, state.view_vertices, state.view_indices, d.view_boxes);
+        if (is_models) mesh = give_model_mesh(state, body);
+    }
     d.query_index->touch(bodies, body);
     return body_id(bodies, body);
 }

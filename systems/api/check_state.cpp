@@ -57,6 +57,36 @@ bool is_task(const State& s, uint32_t t) {
     return t < s.tasks.size() && static_cast<TaskState>(s.tasks.state[t]) != TaskState::Free;
 }
 
+/// Each has as many users as it is named by, and a body that shows one shows all of it.
+void check_model_meshes(Checker& check) {
+    const State& s = check.state;
+    const ModelMeshes& meshes = s.model_meshes;
+    std::vector<uint32_t> users(meshes.size());
+    const auto name = [&](const AnyTable& table, const char* column, uint32_t row, Row<ModelMeshes> mesh) {
+        if (!mesh.exists()) return false;
+        check.expect(mesh.index < meshes.size() && meshes.users[mesh] > 0,
+                     Checker::place(table, column, row) + " is " + std::to_string(mesh.index) + ", no mesh of a model");
+        if (check.is_sound()) ++users[mesh];
+        return check.is_sound();
+    };
+    for (uint32_t m = 0; m < s.models.size(); ++m)
+        if (s.models.is_used[m]) name(s.models, "mesh", m, s.models.mesh[m]);
+    const auto is_same = [](const Range& shown, const Range& all) {
+        return shown.first == all.first && shown.count == all.count && shown.capacity == 0;
+    };
+    for (uint32_t b = 0; b < s.bodies.size() && check.is_sound(); ++b) {
+        const Row<ModelMeshes> mesh = s.bodies.model_mesh[b];
+        if (!is_body(s, b) || !name(s.bodies, "model_mesh", b, mesh)) continue;
+        check.expect(is_same(s.bodies.view_vertices[b], meshes.vertices[mesh]) &&
+                         is_same(s.bodies.view_indices[b], meshes.indices[mesh]),
+                     Checker::place(s.bodies, "view_vertices", b) + " are not those of its model's mesh");
+    }
+    for (uint32_t m = 0; m < meshes.size() && check.is_sound(); ++m)
+        check.expect(meshes.users[m] == users[m] && meshes.pool.is_taken(m, 1) == (users[m] > 0),
+                     Checker::place(meshes, "users", m) + " is " + std::to_string(meshes.users[m]) + "; it has " +
+                         std::to_string(users[m]));
+}
+
 /// Ranges of one table: each inside of it, taken from its pool, and no two on the same rows.
 class RangeCheck {
  public:
@@ -210,14 +240,18 @@ void check_ranges(Checker& check) {
     of_metal(s.sub_shells, s.sub_shells.pool, s.metal_shells.cells);
     of_metal(s.sub_shell_borders, s.sub_shell_borders.pool, s.metal_shells.borders);
     check_solid_ranges(check);
-    const auto of_bodies = [&](const AnyTable& table, const RangePool& pool, const Column<Range>& column) {
+    const auto of_drawn = [&](const AnyTable& table, const RangePool& pool, const Column<Range>& of_bodies,
+                              const Column<Range>& of_meshes) {
         RangeCheck ranges(check, table, pool);
         for (uint32_t b = 0; b < s.bodies.size(); ++b)
-            if (is_body(s, b)) ranges.add("body", b, column[b]);
+            if (is_body(s, b) && !s.bodies.model_mesh[b].exists()) ranges.add("body", b, of_bodies[b]);
+        for (uint32_t m = 0; m < s.model_meshes.size(); ++m)
+            if (s.model_meshes.users[m] > 0) ranges.add("model mesh", m, of_meshes[m]);
         ranges.finish();
     };
-    of_bodies(s.view_vertices, s.view_vertices.pool, s.bodies.view_vertices);
-    of_bodies(s.view_indices, s.view_indices.pool, s.bodies.view_indices);
+    of_drawn(s.view_vertices, s.view_vertices.pool, s.bodies.view_vertices, s.model_meshes.vertices);
+    of_drawn(s.view_indices, s.view_indices.pool, s.bodies.view_indices, s.model_meshes.indices);
+    check_model_meshes(check);
     check.expect(s.triangle_springs.size() == s.elements.size(), "triangle_springs and elements differ in rows");
     for (uint32_t b = 0; b < s.bodies.size(); ++b)
         check.expect(!is_body(s, b) || s.bodies.pool.is_taken(b, 1),

@@ -3,6 +3,7 @@
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
 #include "systems/api/model_row.hpp"
+#include "systems/bodies/model_mesh.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/cook/model_contents.hpp"
 #include "systems/structure_calls.hpp"
@@ -41,6 +42,7 @@ Result<ModelId> World::add_model(const Model& model) {
     state.structures.damage_model[structure] = *breaks;
     state.models.is_used[row] = 1;
     state.models.structure[row] = structure;
+    state.models.mesh[row] = {};
     const DamageSettings& damage = contents_->data.damage_settings;
     contents_->log.advise(contents_->host, *model.contents,
                           hold_units(damage.units_a_frame, damage.hold_seconds, contents_->data.step_info.dt));
@@ -62,6 +64,8 @@ Result<void> World::remove_model(ModelId id) {
     if (contents_->recorder) contents_->recorder->remove_model(id);
     const Row<Structures> structure = state.models.structure[model];
     calls_of(state.structures, structure).release(state, structure);
+    if (const Row<ModelMeshes> mesh = state.models.mesh[model]; mesh.exists()) release_model_mesh(state, mesh);
+    state.models.mesh[model] = {};
     state.models.is_used[model] = 0;
     return {};
 }

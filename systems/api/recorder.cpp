@@ -80,6 +80,7 @@ void Recorder::spawn(ModelId id, const SpawnSettings& s) {
     out.number(s.user_data);
     out.number(static_cast<uint8_t>(s.is_breakable));
     out.number(s.strength_scale);
+    out.number(s.strength_seed);
     out.number(s.pins || s.pin_count == 0 ? s.pin_count : 0xffffffffu);
     for (uint32_t i = 0; s.pins && i < s.pin_count; ++i) {
         for_each_number_of_vector(s.pins[i].low, into(out));

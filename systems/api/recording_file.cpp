@@ -9,7 +9,7 @@ namespace cullet {
 namespace {
 
 constexpr char kMagic[8] = {'c', 'r', 'e', 'c', 'd', '\r', '\n', '\x1a'};
-constexpr uint32_t kVersion = 10;
+constexpr uint32_t kVersion = 11;
 constexpr size_t kHeadBytes = 16, kChunkHeadBytes = 8, kChainBytes = 8;
 
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION

@@ -288,7 +288,7 @@ void Replayer::spawn(ByteReader& in) {
     for_each_number_of_contact(s.contact, from(in));
     from(in)(s.user_data);
     s.is_breakable = in.number<uint8_t>("whether it breaks") != 0;
-    from(in)(s.strength_scale);
+    from(in)(s.strength_scale), from(in)(s.strength_seed);
     s.pin_count = in.number<uint32_t>("the number of pins");
     std::vector<Box> pins;
     if (s.pin_count != 0xffffffffu) {

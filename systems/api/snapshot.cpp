@@ -62,7 +62,7 @@ namespace {
 constexpr uint64_t kLargestFile = 1ull << 36;
 constexpr const char* kAdvice = "The snapshot is damaged or of another build; take it again.";
 constexpr FileKind kKind{{'c', 's', 'n', 'a', 'p', '\r', '\n', '\x1a'},
-                         20,
+                         21,
                          "snapshot",
                          ".csnap",
                          "Write one with World::save.",
@@ -152,10 +152,16 @@ void restore_what_follows(World::Contents& world) {
             calls_of(state.structures, state.tasks.working[t])
                 .remember_drawn(state, state.tasks.working[t], state.tasks.body[t]);
     }
+    std::vector<bool> is_bound(state.model_meshes.size());
     for (uint32_t b = 0; b < state.bodies.size(); ++b) {
         const Row<Structures> structure = state.bodies.structure[b];
         if (static_cast<BodyKind>(state.bodies.kind[b]) == BodyKind::Free || !structure.exists()) continue;
-        bound_view(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_boxes);
+        const Row<ModelMeshes> mesh = state.bodies.model_mesh[b];
+        if (mesh.exists() && is_bound[mesh])
+            state.bodies.drawn_box[b] = state.model_meshes.drawn_box[mesh];
+        else
+            bound_view(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_boxes);
+        if (mesh.exists()) is_bound[mesh] = true;
         calls_of(state.structures, structure).remember_drawn(state, structure, Row<Bodies>(b));
         state.bodies.redrawn[b] = {0, state.bodies.view_indices[b].count / 3};
         models.restore_body(state, Row<Bodies>(b));

@@ -26,6 +26,9 @@ Result<BodyView> World::view(BodyId id) const {
         if (count > 0) view.runs[view.run_count++] = {kind, material, first, count};
         first += count;
     }
+    if (const Row<Models> model = bodies.model[body];  // it may have gone
+        bodies.model_mesh[body].exists() && state.models.mesh[model] == bodies.model_mesh[body])
+        view.model = {model.index, state.models.generation[model]};
     view.stamp = bodies.view_stamp[body];
     // step_info.frame is the next step's number.
     if (bodies.drawn_frame[body] + 1 >= contents_->data.step_info.frame) {

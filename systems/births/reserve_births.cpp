@@ -151,7 +151,7 @@ bool reserve_births(Planning& planning, Break& plan) {
 
 bool has_room_to_redraw(Planning& planning, Row<Bodies> body, Row<Structures> structure, uint32_t part) {
     SoftRows& state = planning.state;
-    if (state.bodies.is_owed_births[body] == kOwedDrawing) return false;
+    if (state.bodies.is_owed_births[body] == kOwedDrawing || state.bodies.model_mesh[body].exists()) return false;
     const Range &vertices = state.bodies.view_vertices[body], &indices = state.bodies.view_indices[body];
     return planning.calls(structure).rows_to_redraw(state, body, structure, part) <=
            std::min(vertices.capacity, indices.capacity);

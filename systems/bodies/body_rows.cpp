@@ -1,5 +1,6 @@
 #include "systems/bodies/body_rows.hpp"
 
+#include "systems/bodies/model_mesh.hpp"
 #include "systems/structure_calls.hpp"
 
 namespace cullet {
@@ -17,6 +18,7 @@ Row<Bodies> take_body(BodyRows& state) {
     bodies.parent[row] = {};
     bodies.task[row] = kNone;
     bodies.soft[row] = {};
+    bodies.model_mesh[row] = {};
     bodies.orientation[row] = {};
     bodies.previous_orientation[row] = {};
     bodies.strength_scale[row] = 1;
@@ -28,6 +30,7 @@ void free_body(BodyRows& state, Row<Bodies> b) {
     Bodies& bodies = state.bodies;
     if (const Row<Structures> own = bodies.structure[b]; own.exists())
         calls_of(state.structures, own).release(state, own);
+    leave_model_mesh(state, b);
     state.view_vertices.pool.give_back(bodies.view_vertices[b].first, bodies.view_vertices[b].capacity);
     state.view_indices.pool.give_back(bodies.view_indices[b].first, bodies.view_indices[b].capacity);
     const uint32_t generation = bodies.generation[b];
@@ -37,6 +40,7 @@ void free_body(BodyRows& state, Row<Bodies> b) {
     bodies.generation[b] = generation;
     bodies.task[b] = kNone;
     bodies.soft[b] = {};
+    bodies.model_mesh[b] = {};
     state.bodies.pool.give_back(b, 1);
 }
 
@@ -71,6 +75,7 @@ bool take_view_rows(BodyRows& state, Row<Bodies> b, uint32_t rows) {
     };
     grow(state.view_vertices, state.view_vertices.pool);
     grow(state.view_indices, state.view_indices.pool);
+    leave_model_mesh(state, b);
     state.view_vertices.pool.give_back(vertices.first, vertices.capacity);
     state.view_indices.pool.give_back(indices.first, indices.capacity);
     vertices = {vertex, 0, rows};

@@ -147,6 +147,7 @@ Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) 
     tasks.start_velocity.set(t, rotate(to_body_axes, bodies.velocity[body]));
     tasks.start_spin.set(t, rotate(to_body_axes, bodies.spin[body]));
     tasks.strength_scale[t] = bodies.strength_scale[body];
+    tasks.strength_seed[t] = bodies.model_mesh[body].exists() ? bodies.strength_seed[body] : 0;
     if (bodies.is_owed_births[body]) calls_of(state.structures, source).forget_waiting(state, source);
     models.begin_run(state, task);
     bodies.task[body] = t;

@@ -13,13 +13,6 @@ struct BodyId {
     friend bool operator==(const BodyId&, const BodyId&) = default;
 };
 
-/// A model that was added to a world.
-struct ModelId {
-    uint32_t index = 0, generation = 0;
-    explicit operator bool() const { return generation != 0; }
-    friend bool operator==(const ModelId&, const ModelId&) = default;
-};
-
 /// A breakable body was hit hard enough for damage to be looked at.
 struct ImpactEvent {
     BodyId body, striker;

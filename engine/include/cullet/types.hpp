@@ -32,4 +32,11 @@ struct Motion {
     Vec3 angular_velocity;  // rad/s
 };
 
+/// A model that was added to a world.
+struct ModelId {
+    uint32_t index = 0, generation = 0;
+    explicit operator bool() const { return generation != 0; }
+    friend bool operator==(const ModelId&, const ModelId&) = default;
+};
+
 }  // namespace cullet

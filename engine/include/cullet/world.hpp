@@ -51,6 +51,9 @@ struct SpawnSettings {
     bool is_breakable = true;  // false: rigid for good, of any material
     /// Above 0; on the material's strength (soft ones: strains). Fragments inherit it. Infinity never cracks.
     float strength_scale = 1;
+    /// Of where it is weak and where strong, of brittle shells. Two bodies with different seeds break differently, two
+    /// with the same one alike. 0: the model's own, CookSettings::seed.
+    uint64_t strength_seed = 0;
     /// Vertices inside any of these are fixed to the world. The body is then static, and `motion` counts for nothing.
     /// Refused when no vertex lies in any.
     const Box* pins = nullptr;

@@ -2,6 +2,7 @@
 
 #include "systems/cook/materials.hpp"
 #include "systems/models/thick_shell/calibrate.hpp"
+#include "systems/models/thick_shell/hidden/strength_factors.hpp"
 #include "systems/models/thick_shell/restore_calls.hpp"
 #include "systems/models/thick_shell/shared/cut_out.hpp"
 #include "systems/models/thick_shell/shared/quick_body.hpp"
@@ -13,6 +14,10 @@
 
 namespace cullet {
 namespace {
+
+void seed_strength(const ShellView& shell, const SpawnSettings& settings) {
+    if (settings.strength_seed != 0) fill_strength_factors(shell, settings.strength_seed);
+}
 
 uint32_t pin(const ShellView& shell, const SpawnSettings& settings) {
     uint32_t pinned = 0;
@@ -69,6 +74,7 @@ Result<Row<Structures>> own_copy(ShellRows& state, Row<Structures> source, const
     const Row<Structures> copy = copy_shell(state, source, room, &full);
     if (!copy.exists())
         return Error{std::string("no room for a large body that breaks near its hits; raise ") + full + "."};
+    seed_strength(ShellView(state, copy), settings);
     remember_sums(ShellView(state, copy));
     return copy;
 }
@@ -88,6 +94,7 @@ Result<Row<Structures>> pinned_copy(ShellRows& state, Row<Structures> source, co
         release_shell(state, copy);
         return Error{"the pinned body's stiffness does not fit the model's rows; please report this mesh."};
     }
+    seed_strength(shell, settings);
     if (wants_own_shell(state, source, settings)) remember_sums(shell);
     return copy;
 }
