@@ -57,6 +57,7 @@ void copy_metal_rows(ShellRows& to, const ShellRows& from, Row<Structures> sourc
     s.half_diagonal[own] = from.metal_shells.half_diagonal[given];
     s.published[own] = from.metal_shells.published[given];
     s.impulse_time[own] = from.metal_shells.impulse_time[given];
+    s.tear_strain[own] = from.metal_shells.tear_strain[given];
     k = 0;
     for_each_metal_range(to, own, {}, [&](Range& range, auto& table, uint32_t, const char*) {
         using Rows = std::remove_reference_t<decltype(table)>;

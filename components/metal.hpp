@@ -44,6 +44,7 @@ struct MetalShells : RangeTable<MetalShells> {
     Column<float> half_diagonal{*this, "half_diagonal", "m"};     // of the original box
     Column<uint8_t> published{*this, "published"};                // PublishedChoice
     Column<float> impulse_time{*this, "impulse_time", "s"};       // tau of the published depth; 0: by the depth of ours
+    Column<float> tear_strain{*this, "tear_strain"};              // 0: by the material's
 };
 
 /// Row s says which row of MetalShells the shell in row s of Shells has: that number + 1, and 0 of one that is not of

@@ -79,6 +79,9 @@ void plan_break(Planning& planning, Row<Tasks> task) {
     const Row<Structures> broken = state.tasks.working[task];
     const Rows<Fragments> found = planning.calls(broken).list_found(state, task, planning.fragments);
     Break plan = break_of(planning, task, state.tasks.body[task], broken, found);
+    // It tore, and nothing came off. Who stood on pins and has none any more falls, which is another thing.
+    plan.is_reshaped =
+        found.count == 1 && !state.bodies.has_pins[plan.body] == !planning.fragments.has_pins[found.first];
     if (found.count == 0 || !reserve_hulls(planning, plan)) return refuse(planning, task);
     std::optional<RestMotion> rest;
     if (broken == plan.before) rest = planning.models.motion_of_rest(state, task);

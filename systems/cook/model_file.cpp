@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kAdvice = "The model file is damaged or of another build; cook the mesh again and write it.";
 constexpr FileKind kKind{{'c', 'm', 'o', 'd', 'l', '\r', '\n', '\x1a'},
-                         13,
+                         14,
                          "model file",
                          ".cmodel",
                          "Write one with write_model.",

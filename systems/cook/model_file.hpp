@@ -1,7 +1,7 @@
 // The model file (.cmodel): the rows of one cooked shell, so that a game cooks once. Which columns stand in it follows
 // from the tables' own lists; a build whose tables differ refuses the file. Its reader believes nothing.
 //
-// The header of engine/file_header.hpp, version 13, magic "cmodl\r\n\x1a", then the payload.
+// The header of engine/file_header.hpp, version 14, magic "cmodl\r\n\x1a", then the payload.
 //
 // Payload: the text name (u32 bytes, the bytes), the text of its damage model; the material: its name, u8 kind, u8
 // fracture, f32 for each of material_values() in that order, f32 x, y, z of the grain; the texts repairs, advice,

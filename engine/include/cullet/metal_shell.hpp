@@ -14,6 +14,7 @@ struct MetalShellSettings {
     float crush_pressure = 0;     // Pa, under which the body gives way as a whole; 0: the material's, or by its shape
     float link_distance = 0.01f;  // of the box diagonal: sheets that are so near are tied to each other
     float edge_split = 0.025f;    // of the box diagonal: longer edges are split, where longest_edge is 0
+    float tear_strain = 0;        // beyond which it tears; 0: 1.25 times the strain at which the material breaks
     // Choices of the method.
     MetalChoice adjacency = MetalChoice::Default;        // how far neighbouring triangles are apart
     MetalChoice seeds = MetalChoice::Default;            // where sub-shells begin

@@ -1,11 +1,27 @@
 #include "systems/models/metal_shell/calls.hpp"
 
+#include <algorithm>
+
 #include "systems/models/metal_shell/cook/metal_rows.hpp"
 #include "systems/models/metal_shell/loop.hpp"
 #include "systems/structures/shell/cook/apply_pins.hpp"
 
 namespace cullet::metal_shell {
 namespace {
+
+/// Rows to spare for what a tear puts on edges and splits: arms of a hole in fine sheets take some hundred.
+constexpr uint32_t kLeastSpare = 256, kMostSpare = 2048, kSpringsAVertex = 16;
+uint32_t spare_vertices(uint32_t vertices) {
+    return (std::clamp(vertices / 8, kLeastSpare, kMostSpare) + kLanes - 1) / kLanes * kLanes;
+}
+
+/// With room to tear.
+MetalRoom metal_room_of_hit(const ShellRows& rows, Row<Structures> structure, const ShellRoom& shell) {
+    MetalRoom room = metal_room_of(rows, structure);
+    room.springs += kSpringsAVertex * spare_vertices(room.vertices);
+    room.vertices = shell.vertices, room.elements = shell.elements;
+    return room;
+}
 
 /// A copy with rows of metal, filled; kNone and the limit's name when there is no room.
 Row<Structures> copy_with_metal(ShellRows& rows, Row<Structures> source, const char** full) {
@@ -53,6 +69,7 @@ const char* why_not_cut(const BodyRows& rows, Row<Bodies> body) {
     return is_metal ? "it is of sheet metal, which dents; cut one of a material that breaks" : nullptr;
 }
 
+// Its rows of metal come with those of its shell.
 void inherit_nothing(BodyRows& rows, Row<Bodies>, Row<Bodies> piece) {
     if (piece < rows.metal_impacts.size()) rows.metal_impacts.clear_rows(piece, 1);
 }
@@ -60,9 +77,10 @@ void inherit_nothing(BodyRows& rows, Row<Bodies>, Row<Bodies> piece) {
 WorkingCopy take_shell(BodyRows& rows, Row<Bodies> body) {
     WorkingCopy made;
     const Row<Structures> source = rows.bodies.structure[body];
-    made.structure = make_shell_unclear(rows, room_of_hit(rows, body), &made.full);
+    const ShellRoom room = room_of_hit(rows, body);
+    made.structure = make_shell_unclear(rows, room, &made.full);
     if (!made.structure.exists()) return made;
-    if (make_metal(rows, made.structure, metal_room_of(rows, source), &made.full).exists()) return made;
+    if (make_metal(rows, made.structure, metal_room_of_hit(rows, source, room), &made.full).exists()) return made;
     release_shell(rows, made.structure);
     made.structure = {};
     return made;
@@ -77,7 +95,11 @@ void begin_run(BodyRows& rows, Row<Tasks> task) {
 }
 
 ShellRoom room_of_hit(const BodyRows& rows, Row<Bodies> body) {
-    ShellRoom room = room_of(rows, rows.bodies.structure[body]);
+    const Row<Structures> structure = rows.bodies.structure[body];
+    const uint32_t vertices = rows.shells.vertices[rows.shell_of(structure)].count, spare = spare_vertices(vertices);
+    ShellRoom room = room_of(rows, structure);
+    room.vertices = (vertices + kLanes - 1) / kLanes * kLanes + spare;
+    room.elements += 2 * spare, room.hinges += 3 * spare;
     room.blocks = room.links = room.points = 0;
     return room;
 }
@@ -86,7 +108,8 @@ bool may_find_room(const BodyRows& rows, Row<Bodies> body) {
     const ShellRoom room = room_of_hit(rows, body);
     const Row<Shells> own = rows.shell_of(rows.bodies.structure[body]);
     return uint64_t{rows.shells.vertices[own].capacity} + room.vertices <= rows.vertices.limit() &&
-           uint64_t{rows.shells.elements[own].capacity} + room.elements <= rows.elements.limit();
+           uint64_t{rows.shells.elements[own].capacity} + room.elements <= rows.elements.limit() &&
+           uint64_t{rows.shells.hinges[own].capacity} + room.hinges <= rows.hinges.limit();
 }
 
 }  // namespace cullet::metal_shell

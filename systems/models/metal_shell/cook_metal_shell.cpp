@@ -29,6 +29,7 @@ MetalCookSettings wanted_rows(const Cooking& from) {
     for (const auto& [choice, bit] : choices)
         if (choice == MetalChoice::Paper) wanted.published = static_cast<uint8_t>(wanted.published | bit);
     wanted.impulse_time = given.impulse_time;
+    wanted.tear_strain = given.tear_strain;
     return wanted;
 }
 

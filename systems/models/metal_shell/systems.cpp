@@ -8,6 +8,8 @@
 #include "systems/models/metal_shell/dent/feel.hpp"
 #include "systems/models/metal_shell/published/penalty.hpp"
 #include "systems/models/metal_shell/strike/lay_front.hpp"
+#include "systems/models/metal_shell/tear/part_torn.hpp"
+#include "systems/models/metal_shell/tear/tear.hpp"
 #include "systems/structures/shell/explosion.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 
@@ -170,6 +172,76 @@ void gather(BodyRows& rows, Row<Tasks> task, Step step, const Blows& blows, cons
 
 }  // namespace
 
+namespace {
+
+// What it took is not in the striker's motion any more; it goes on through the hole, and what was punched out with it.
+// Else the touch is solved as any other, between the bodies as they are now.
+void let_through(BodyRows& rows, Row<Tasks> task, const Contact& strongest, const Dent& dent, double work) {
+    const MetalRuns& runs = rows.metal_runs;
+    const double own_share = share_of(rows, task, runs.striker[task]);
+    const double now = own_share * strongest.energy, left = std::min(now, std::max(0.0, dent.tearing - work));
+    const double slower = strongest.speed * (1 - std::sqrt(left / now));
+    TaskContacts& contacts = rows.task_contacts;
+    contacts.impulse[strongest.row] = slower / strongest.inverse_mass;
+    contacts.striker_speed[strongest.row] =
+        double{contacts.start_speed[strongest.row]} -
+        contacts.impulse[strongest.row] * double{contacts.striker_inverse_mass[strongest.row]};
+    Punch punch;
+    punch.point = Vec3d(contacts.point[strongest.row]), punch.push = Vec3d(contacts.normal[strongest.row]);
+    punch.impulse = contacts.impulse[strongest.row], punch.striker_speed = contacts.striker_speed[strongest.row];
+    move_torn(rows, task, dent.vertex, punch);
+    rows.tasks.state[task] = static_cast<uint8_t>(TaskState::Broke);
+}
+
+// The wave goes through; what it punched out has the speed that a bare wall would have of it.
+void blow_through(BodyRows& rows, Row<Tasks> task, const Blows& blows, uint32_t blow, uint32_t vertex) {
+    const Vec3d impulse = blows.impulse[blow];
+    Punch punch;
+    punch.impulse = length(impulse);
+    punch.point = Vec3d(rows.metal_runs.point[task]);
+    punch.push = punch.impulse > 0 ? (1 / punch.impulse) * impulse : Vec3d(rows.metal_runs.push[task]);
+    punch.striker_speed = double{rows.metal_runs.speed[task]};
+    move_torn(rows, task, vertex, punch);
+    rows.tasks.state[task] = static_cast<uint8_t>(TaskState::Broke);
+}
+
+/// What goes through a sheet that it tears: a contact's striker, or an explosion. A push of the game's is given whole,
+/// by the rigid world, and leaves a dent with cracks.
+struct Piercing {
+    Contact contact;
+    uint32_t blow = kNone;
+    bool exists() const { return contact.row != kNone || blow != kNone; }
+};
+Piercing piercing_of(const BodyRows& rows, Row<Tasks> task, const Blows& blows) {
+    Piercing piercing;
+    piercing.contact = strongest_contact(rows, task);
+    if (piercing.contact.row != kNone && !rows.task_contacts.striker[piercing.contact.row].exists())
+        piercing.contact.row = kNone;
+    for (uint32_t b = 0; b < blows.size() && rows.tasks.contact_count[task] == 0; ++b)
+        if (piercing.blow == kNone && blows.task[b] == task.index && is_kind(blows, b, BlowKind::Explosion))
+            piercing.blow = b;
+    return piercing;
+}
+
+void tear(BodyRows& rows, Row<Tasks> task, const Blows& blows, const Dent& dent) {
+    const MetalView metal(rows, rows.tasks.working[task]);
+    const Piercing piercing = piercing_of(rows, task, blows);
+    number_parts(metal.shell, rows.shell_parts.of_task(task));
+    const Tear torn = tear_sheet(metal, dent, rows.pin_boxes, piercing.exists());
+    rows.tasks.crack_count[task] += torn.cut_edges;
+    rows.tasks.lacks_room[task] = torn.is_full;
+    if (torn.cut_edges > 0) rows.metal_runs.restitution[task] = 0;
+    // A star beside an older hole may cut something off, too.
+    const bool parts = torn.is_through || find_torn(metal.shell, rows.shell_parts.of_task(task)) > 1;
+    if (!parts || !piercing.exists()) return;
+    if (piercing.contact.row != kNone)
+        let_through(rows, task, piercing.contact, dent, torn.work);
+    else
+        blow_through(rows, task, blows, piercing.blow, dent.vertex);
+}
+
+}  // namespace
+
 void gather_impulses(EachOwn<TaskOpened> opened, Step step, const Blows& blows, BodyRows& rows,
                      const QueryIndex& index) {
     const Row<Tasks> task = opened->task;
@@ -180,7 +252,7 @@ void gather_impulses(EachOwn<TaskOpened> opened, Step step, const Blows& blows, 
     gather(rows, task, step, blows, index);
 }
 
-void work_impact(Of<Tasks> task, BodyRows& rows) {
+void work_impact(Of<Tasks> task, BodyRows& rows, const Blows& blows) {
     const Row<Tasks> t = task.row;
     Tasks& tasks = rows.tasks;
     tasks.steps_granted[t] -= tasks.steps_granted[t] > 0;
@@ -193,7 +265,9 @@ void work_impact(Of<Tasks> task, BodyRows& rows) {
     runs.depth[t] = static_cast<float>(dent.depth);
     runs.contact[t] = static_cast<float>(dent.contact);
     runs.restitution[t] = static_cast<float>(dent.restitution);
-    if (dent.kind != DentKind::None && bake_dent(metal)) tasks.state[t] = static_cast<uint8_t>(TaskState::Reshaped);
+    if (dent.kind == DentKind::None || !bake_dent(metal)) return;
+    tasks.state[t] = static_cast<uint8_t>(TaskState::Reshaped);
+    if (dent.tearing > 0) tear(rows, t, blows, dent);
 }
 
 void end_impacts(Serial, Step step, const Events<TaskEnded>& ended, BodyRows& rows, RigidWorld& rigid) {
@@ -203,6 +277,10 @@ void end_impacts(Serial, Step step, const Events<TaskEnded>& ended, BodyRows& ro
         const Row<Tasks> task = e.task;
         if (!rows.metal_of(rows.tasks.source[task]).exists() || !(runs.energy[task] > 0)) continue;
         const Row<Bodies> body = rows.tasks.body[task], striker = runs.striker[task];
+        if (rows.tasks.crack_count[task] > 0) {  // no shape before it that more of it could go on from
+            if (body < impacts.size()) impacts.clear_rows(body, 1);
+            continue;
+        }
         const bool is_dented = static_cast<TaskState>(rows.tasks.state[task]) == TaskState::Reshaped;
         impacts.reach(body + 1);
         impacts.frame[body] = step.frame;
@@ -224,9 +302,14 @@ void end_impacts(Serial, Step step, const Events<TaskEnded>& ended, BodyRows& ro
 
 void group_dented(EachOwn<TaskEnded> ended, RunRows& rows) {
     const Row<Tasks> task = ended->task;
-    rows.tasks.part_count[task] = 1;
-    if (static_cast<TaskState>(rows.tasks.state[task]) != TaskState::Reshaped) return;
-    rows.shell_parts.of_task(task)[0] = whole_part(ShellView(rows, rows.tasks.working[task]));
+    Tasks& tasks = rows.tasks;
+    tasks.part_count[task] = 1;
+    const auto state = static_cast<TaskState>(tasks.state[task]);
+    if (state != TaskState::Reshaped && state != TaskState::Broke) return;
+    const ShellView shell(rows, tasks.working[task]);
+    const std::span<FragmentPart> parts = rows.shell_parts.of_task(task);
+    if (state == TaskState::Reshaped) parts[0] = whole_part(shell);
+    if (state == TaskState::Broke) tasks.part_count[task] = find_torn(shell, parts);
 }
 
 }  // namespace cullet::metal_shell

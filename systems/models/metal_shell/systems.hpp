@@ -9,12 +9,13 @@ namespace cullet::metal_shell {
 /// not round gets a front of its triangles.
 void gather_impulses(EachOwn<TaskOpened> opened, Step step, const Blows& blows, BodyRows& rows,
                      const QueryIndex& index);
-/// The whole impact: field, folds, creases, limits; and into the working copy's shape.
-void work_impact(Of<Tasks> task, BodyRows& rows);
+/// The whole impact: field, folds, creases, limits; and into the working copy's shape. Where that is stretched too far
+/// it tears.
+void work_impact(Of<Tasks> task, BodyRows& rows, const Blows& blows);
 /// Impacts that were worked off are remembered, as what comes soon may be more of them. A sheet's restitution is that
 /// of the contacts that are solved now.
 void end_impacts(Serial, Step step, const Events<TaskEnded>& ended, BodyRows& rows, RigidWorld& rigid);
-/// What was dented is one part, in another shape.
+/// What was dented is one part, in another shape. What tore through may be several.
 void group_dented(EachOwn<TaskEnded> ended, RunRows& rows);
 
 }  // namespace cullet::metal_shell

@@ -52,6 +52,10 @@ struct Cutting {
         for (const uint32_t v : state().elements.corner[shell.element(element)]) sum += place_of(v);
         return (1.0f / 3) * sum;
     }
+    bool is_far(uint32_t element) const {
+        return surface.is_far_from(
+            state().vertices.rest[shell.vertex(state().elements.corner[shell.element(element)][0])]);
+    }
     bool is_left(uint32_t element) const { return surface.side(middle_of(element)).distance >= 0; }
 
     /// One end of edge k is pinned and the other is not.
@@ -96,7 +100,7 @@ void insert_vertices(Cutting& cutting) {
     const ShellView shell = cutting.shell;
     const uint32_t most = (shell.vertices().capacity - shell.vertex_count()) / 2 + shell.vertex_count();
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
-        if (cutting.state().elements.flags[shell.element(e)] & kDead) continue;
+        if ((cutting.state().elements.flags[shell.element(e)] & kDead) || cutting.is_far(e)) continue;
         for (uint32_t k = 0; k < 3;) {
             const Crossing at = cutting.crossing(e, k);
             bool is_full = false;
@@ -134,7 +138,7 @@ uint32_t count_cuts(Cutting& cutting) {
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) vertices.copy[shell.vertex(v)] = 0;
     uint32_t count = 0;
     for (uint32_t e = 0; e < shell.element_count(); ++e)
-        for (uint32_t k = 0; k < 3; ++k) {
+        for (uint32_t k = 0; k < 3 && !cutting.is_far(e); ++k) {
             const uint32_t other = cutting.state().elements.neighbour[shell.element(e)][k];
             if (other == kNone || other < e || !comes_apart(cutting, e, k)) continue;
             ++count;
@@ -247,7 +251,7 @@ CutReport cut_shell(ShellView shell, const CutSurface& surface, const PinBoxes& 
     insert_vertices(cutting);
     const bool opens = count_cuts(cutting) > 0;
     for (uint32_t e = 0; e < shell.element_count(); ++e)
-        for (uint32_t k = 0; k < 3; ++k) {
+        for (uint32_t k = 0; k < 3 && !cutting.is_far(e); ++k) {
             const uint32_t other = shell.state.elements.neighbour[shell.element(e)][k];
             if (other == kNone || other < e || !comes_apart(cutting, e, k)) continue;
             if (open_edge(cutting, e, k))

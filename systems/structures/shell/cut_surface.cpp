@@ -28,6 +28,7 @@ CutReach reach_in(ShellView shell, const CutSurface& surface, float layer) {
         if (shell.state.vertices.element[shell.vertex(v)] == kNone) continue;
         const float distance = surface.side(place_in_wall(shell, v, layer)).distance;
         float& most = distance > 0 ? reach.left : reach.right;
+        if (std::fabs(distance) >= kBeyondWindow) continue;
         if (std::fabs(distance) > most && (layer == kMiddle || is_inside(shell, v))) most = std::fabs(distance);
     }
     return reach;
@@ -38,16 +39,36 @@ CutReach reach_in(ShellView shell, const CutSurface& surface, float layer) {
 CutSurface::CutSurface(const Blows& blows, uint32_t row)
     : place_(blows.point[row]), normal_(blows.direction[row]), count_(blows.point_count[row]) {
     if (count_ == 0) return;
-    const Vec3 helper = std::fabs(normal_.x) < 0.6f ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    x_ = normalised(cross(helper, normal_));
-    y_ = cross(normal_, x_);
+    lay_axes();
     const Vec3 first = cut_point(blows, row, 0), last = cut_point(blows, row, count_ - 1);
     is_closed_ = count_ > 3 && first == last;
     for (uint32_t i = 0; i < count_; ++i) points_[i] = flat(cut_point(blows, row, i));
 }
 
+CutSurface::CutSurface(Vec3 direction, std::span<const Vec3> points, const CutWindow& window)
+    : place_(points[0]), normal_(direction), count_(static_cast<uint32_t>(points.size())), window_(window) {
+    CULLET_ASSERT(count_ <= kMostCutPoints, "a line of %u points", count_);
+    lay_axes();
+    has_window_ = true;
+    is_closed_ = count_ > 3 && points.front() == points.back();
+    for (uint32_t i = 0; i < count_; ++i) points_[i] = flat(points[i]);
+}
+
+void CutSurface::lay_axes() {
+    const Vec3 helper = std::fabs(normal_.x) < 0.6f ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    x_ = normalised(cross(helper, normal_));
+    y_ = cross(normal_, x_);
+}
+
 CutSide CutSurface::side(Vec3 place) const {
     if (count_ == 0) return {dot(place - place_, normal_), true};
+    bool is_inside = true;
+    if (has_window_) {
+        if (is_far_from(place)) return {kBeyondWindow, false};
+        const Vec3 from = place - window_.middle;
+        const float along = dot(from, normal_), aside = length(from - along * normal_);
+        is_inside = aside >= window_.inner && aside <= window_.outer && along >= window_.low && along <= window_.high;
+    }
     const Point p = flat(place);
     const uint32_t segments = count_ - 1;
     // How far to the left of segment i's line, m.
@@ -84,6 +105,7 @@ CutSide CutSurface::side(Vec3 place) const {
             if (std::fabs(other_left) > std::fabs(left)) left = other_left;
         }
     }
+    found.is_beside = found.is_beside && is_inside;
     found.distance = left < 0 ? -distance : distance;
     return found;
 }

@@ -4,6 +4,7 @@
 
 #include "systems/structures/shell/cell_hulls.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
+#include "systems/structures/shell/metal_piece.hpp"
 #include "systems/structures/shell/piece_shape.hpp"
 
 namespace cullet {
@@ -23,6 +24,7 @@ uint32_t cell_row(const ShellView& shell, uint32_t cell) {
 
 struct Counts {
     uint32_t vertices = 0, hinges = 0, cells = 0;
+    uint32_t metal_springs = 0;
 };
 
 // Marks the part's vertices and lists its elements by cell. A vertex's mark is any number but kNone.
@@ -36,11 +38,17 @@ Counts mark_part(const ShellView& shell, const FragmentPart& part) {
         cells.list_count[cell_row(shell, elements.cell[row])] = 0;
     });
     Counts counts;
+    const Row<MetalShells> metal = state.metal_of(shell.structure);
+    const uint32_t metal_vertex = metal.exists() ? state.metal_shells.vertices[metal].first : 0;
     for_each_element(shell, part, [&](uint32_t e) {
         const uint32_t row = shell.element(e), c = cell_row(shell, elements.cell[row]);
         for (int k = 0; k < 3; ++k) {
             uint32_t& mark = state.vertices.copy[shell.vertex(elements.corner[row][k])];
-            if (mark == kNone) mark = counts.vertices++;
+            if (mark == kNone) {
+                mark = counts.vertices++;
+                if (metal.exists())
+                    counts.metal_springs += state.metal_vertices.spring_count[metal_vertex + elements.corner[row][k]];
+            }
             const uint32_t n = elements.neighbour[row][k];
             if (n != kNone && n > e && elements.hinge[row][k] != kNone) ++counts.hinges;
         }
@@ -294,6 +302,22 @@ ShellRoom piece_room(ShellView broken, const FragmentPart& part) {
 
 namespace {
 
+/// Of metal: sub-shells as many as the broken shell has at most, which are few.
+MetalRoom metal_room(const ShellRows& state, Row<Structures> broken, const Counts& counts, const ShellRoom& shell) {
+    const MetalRoom whole = metal_room_of(state, broken);
+    const uint32_t cells = std::min(whole.cells, shell.elements);
+    return {shell.vertices, shell.elements, counts.metal_springs, cells, std::min(whole.borders, cells * cells)};
+}
+
+/// A shell for the part, with rows of metal where it is of metal.
+Row<Structures> make_rows(ShellRows& state, Row<Structures> broken, const Counts& counts, const ShellRoom& room,
+                          const char** full) {
+    const Row<Structures> row = make_shell_unclear(state, room, full);
+    if (!row.exists() || reserve_metal(state, broken, row, metal_room(state, broken, counts, room), full)) return row;
+    release_shell(state, row);
+    return {};
+}
+
 /// What follows the copied elements.
 void finish_piece(const ShellView& shell, const FragmentPart& part, const ShellView& piece, uint32_t vertex_count) {
     renumber_elements(shell, part, piece);
@@ -304,6 +328,7 @@ void finish_piece(const ShellView& shell, const FragmentPart& part, const ShellV
     sum_vertex_masses(piece);
     measure_shell(piece);
     piece.structures().margin[piece.structure] = margin_for(piece.shells().thickness[piece.row]);
+    fill_metal(shell.state, shell.structure, piece.structure, {part.first_element, vertex_count});
 }
 
 void begin_piece(const ShellView& shell, const ShellView& piece, uint32_t vertex_count) {
@@ -319,7 +344,7 @@ Row<Structures> reserve_piece(ShellRows& state, Row<Structures> broken, const Fr
     const ShellView shell(state, broken);
     Counts counts = mark_part(shell, part);
     counts.cells = merge_small_cells(shell, part, counts.cells);
-    const Row<Structures> row = make_shell_unclear(state, room_of(counts, part), full);
+    const Row<Structures> row = make_rows(state, broken, counts, room_of(counts, part), full);
     if (!row.exists()) return row;
     const ShellView piece(state, row);
     state.structures.generation[row] = generation;
@@ -360,7 +385,7 @@ Row<Structures> compact_shell(ShellRows& state, Row<Structures> old, const Fragm
     ShellRoom room = room_of(counts, whole);
     room.cells = state.structures.cells[old].count;
     room.points = state.structures.points[old].count;
-    const Row<Structures> row = make_shell_unclear(state, room, full);
+    const Row<Structures> row = make_rows(state, old, counts, room, full);
     if (!row.exists()) return row;
     const ShellView piece(state, row);
     state.structures.generation[row] = state.structures.generation[old];

@@ -108,7 +108,9 @@ void keep_rest(BodyRows& rows, const Break& of, const Fragments& fragments) {
     rows.shells.dead_elements[shell.row] += of.left_elements;
     rows.structures.live_elements[shell.structure] -= of.left_elements;
     uint8_t& generation = rows.structures.generation[shell.structure];
-    if (!of.is_reshaped && generation < kMostGenerations) ++generation;  // a dent is no break
+    // A dent is no break, and metal with a hole in it is dented and torn as often as it is struck.
+    const bool is_broken = !of.is_reshaped && !rows.metal_of(shell.structure).exists();
+    if (is_broken && generation < kMostGenerations) ++generation;
     if (!of.is_torn) clear_run(shell, false, of.broken != of.before, of.is_refused);
     if (of.keeps_hulls) return renew_rest_hulls(shell);
     const Range points = rows.structures.points[before.structure], old_points = rows.structures.points[shell.structure];

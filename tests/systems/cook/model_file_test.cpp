@@ -361,7 +361,7 @@ TEST(ModelFile, OtherFilesVersionsAndMaterialsAreToldApart) {
     expect_refused(std::vector<uint8_t>{'P', 'K', 3, 4}, "is no model file");
     std::vector<uint8_t> bytes = good_bytes();
     put(bytes, 8, 11u);
-    expect_refused(bytes, "has version 11, this build reads version 13");
+    expect_refused(bytes, "has version 11, this build reads version 14");
     const Result<Model> read = parse_model_file(good_bytes(), "t");
     auto& contents = const_cast<Model::Contents&>(*read->contents);
     contents.material = "a jelly";

@@ -53,7 +53,7 @@ TEST(SettingList, EveryLineHasANameHelpAndADefaultInItsRange) {
         each_setting(cook_settings_of(model), look);
         each_setting(spawn_settings_of(model), look);
     }
-    EXPECT_EQ(count, 37u);
+    EXPECT_EQ(count, 38u);
     EXPECT_TRUE(cook_settings_of("no such model").empty());
 }
 

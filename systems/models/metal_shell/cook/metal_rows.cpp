@@ -250,6 +250,7 @@ Result<MetalReport> make_metal_rows(ShellRows& rows, Row<Structures> structure, 
     own.crush_pressure[row] = crush_pressure_of(shell, surface, settings);
     own.published[row] = settings.published;
     own.impulse_time[row] = settings.impulse_time;
+    own.tear_strain[row] = settings.tear_strain;
 
     Vec3d middle;
     double area = 0, radius = 0;

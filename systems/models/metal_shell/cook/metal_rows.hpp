@@ -13,6 +13,7 @@ struct MetalCookSettings {
     float body_pressure = 0;   // Pa, of bodies; 0: of an empty closed shell of this width; open sheets have none
     uint8_t published = 0;     // PublishedChoice
     float impulse_time = 0;    // s, tau of the published depth; 0: by the depth of ours
+    float tear_strain = 0;     // 0: by the material's
 };
 
 /// What was made of it.

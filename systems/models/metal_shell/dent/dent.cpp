@@ -15,6 +15,8 @@ namespace cullet {
 namespace {
 
 constexpr double kWidest = 0.59;       // of the support: from there on a blow on a closed shell crushes the body
+constexpr double kTears = 1.25;        // of the strain at which the material breaks
+constexpr double kSmallStriker = 0.1;  // of half of the box diagonal, to each side
 constexpr double kFlatStriker = 0.25;  // of the box diagonal: what a flat striker is to a sheet that is open
 
 void begin(const MetalView& metal, bool goes_on) {
@@ -36,6 +38,19 @@ Striker round_striker(const MetalView& metal, Striker striker) {
     striker.radius = striker.ball_radius(kFlatStriker * 2 * double{metal.shells().half_diagonal[metal.row]});
     striker.shape = StrikerShape::Sphere;
     return striker;
+}
+
+// What is wider than the body, as a wall is, goes through nothing.
+bool ends_within(const Striker& striker) {
+    const bool is_front = striker.shape == StrikerShape::Front;
+    return striker.shape == StrikerShape::Sphere || (is_front && striker.front.half_u > 0 && striker.front.half_v > 0);
+}
+
+// It meets the wall of a body and not the body: crushed by so little of it, a car would be pierced by a scrap of sheet.
+bool is_small(const MetalView& metal, const Striker& striker) {
+    if (striker.shape != StrikerShape::Front || !ends_within(striker)) return false;
+    return std::max(striker.front.half_u, striker.front.half_v) <
+           kSmallStriker * double{metal.shells().half_diagonal[metal.row]};
 }
 
 bool is_published(const MetalView& metal, PublishedChoice choice) {
@@ -68,11 +83,22 @@ void carry_creases(const MetalView& metal, double contact, bool folds) {
     crease_cells(metal, contact);
 }
 
+// J of the blow that a sheet which is about to tear does not take.
+double left_at_tear(const MetalView& metal, const Striker& striker, const SheetPlace& place, double energy) {
+    SheetMetal sheet = sheet_metal(metal.shell);
+    const double own = double{metal.shells().tear_strain[metal.row]};
+    sheet.break_strain = own > 0 ? own : kTears * sheet.break_strain;
+    return plan_sheet(sheet, {striker.radius, place.support, energy, place.dent_depth}).left;
+}
+
 Dent dent_sheet(const MetalView& metal, const Striker& striker, const SheetPlace& place, const SheetPlan& plan,
                 double energy) {
     Dent dent{DentKind::Sheet, std::max(0.0, plan.depth - place.dent_depth), plan.contact, plan.left, plan.restitution,
               plan.is_puncture};
     dent.plastic = plastic_share(metal, plan.restitution) * (energy - plan.left);
+    dent.deep = plan.depth, dent.support = place.support, dent.vertex = place.vertex;
+    dent.striker = striker, dent.plan = plan;
+    if (plan.is_puncture) dent.tearing = left_at_tear(metal, striker, place, energy);
     if (is_published(metal, kPublishedShape)) {
         move_rigidly(metal, striker, dent.depth, 0);
     } else {
@@ -115,6 +141,10 @@ SheetMetal sheet_metal(const ShellView& shell) {
         metal.yield_strain = double{of.material_traits.yield_strain[material]};
         metal.break_strain = double{of.material_traits.break_strain[material]};
     }
+    // What is to tear before the material breaks is not stretched farther either.
+    const Row<MetalShells> own = shell.state.metal_of(shell.structure);
+    if (const double tears = own.exists() ? double{shell.state.metal_shells.tear_strain[own]} : 0; tears > 0)
+        metal.break_strain = std::min(metal.break_strain, tears);
     metal.yield_stress = double{of.materials.young_modulus[material]} * metal.yield_strain;
     return metal;
 }
@@ -131,7 +161,8 @@ bool is_elastic(const MetalView& metal, const Striker& striker, double energy) {
 Dent work_dent(const MetalView& metal, const Striker& striker, double energy, bool goes_on) {
     begin(metal, goes_on);
     const bool is_closed = metal.shells().crush_pressure[metal.row] > 0;
-    if (striker.shape != StrikerShape::Sphere && is_closed) return crush_body(metal, striker, energy);
+    if (striker.shape != StrikerShape::Sphere && is_closed && !is_small(metal, striker))
+        return crush_body(metal, striker, energy);
     const Striker ball = along_dent(metal, round_striker(metal, striker));
     const SheetPlace place = find_sheet_place(metal, ball);
     const SheetPlan plan = plan_sheet(sheet_metal(metal.shell), {ball.radius, place.support, energy, place.dent_depth});
@@ -141,7 +172,10 @@ Dent work_dent(const MetalView& metal, const Striker& striker, double energy, bo
         return none;
     }
     if (is_closed && plan.contact > kWidest * place.support) return crush_body(metal, striker, energy);
-    return dent_sheet(metal, ball, place, plan, energy);
+    Dent dent = dent_sheet(metal, ball, place, plan, energy);
+    if (!ends_within(striker) || !(ball.radius < place.support) || is_published(metal, kPublishedShape))
+        dent.tearing = 0;
+    return dent;
 }
 
 bool bake_dent(const MetalView& metal) {

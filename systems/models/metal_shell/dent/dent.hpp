@@ -16,6 +16,13 @@ struct Dent {
     double restitution = 0;  // of the sheet, at least; 0: what the bodies have
     bool is_puncture = false;
     double plastic = 0;  // J that stay in the metal: the energy, less what it gives back and what is left
+    // Of a sheet.
+    double tearing = 0;    // J that a dent as steep as the sheet bears before it tears does not take; 0: it holds
+    double deep = 0;       // m, of the whole dent
+    double support = 0;    // m, to what holds the sheet
+    uint32_t vertex = 0;   // nearest to the touch
+    Striker striker = {};  // as a ball
+    SheetPlan plan = {};
 };
 
 /// Of the shell's material and mean thickness.

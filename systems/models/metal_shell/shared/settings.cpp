@@ -19,6 +19,8 @@ constexpr Setting kSettings[] = {
                               "of the box diagonal: sheets that are so near are tied to each other"),
     number<&M::edge_split>("edge_split", "1", {0.005, 0.1},
                            "of the box diagonal: longer edges are split, where no longest edge is given"),
+    number<&M::tear_strain>("tear_strain", "1", zero_or(0.01, 10),
+                            "beyond which it tears; 0: 1.25 times the strain at which the material breaks"),
     word<&M::adjacency>("adjacency", kChoices, "how far neighbouring triangles are apart, for sub-shells"),
     word<&M::seeds>("seeds", kChoices, "where sub-shells begin"),
     word<&M::representatives>("representatives", kChoices, "what stands for a sub-shell"),
