@@ -15,7 +15,7 @@ local statue = game.cook{
     material = material,
     model = "lattice",
     thickness = 0.1 * size,
-    lattice = {cells = cells},
+    lattice = {wanted_cells = cells},
 }
 game.camera{eye = {1.9, 1.35, 2.5}, target = {0.1, 0.5, 0}, field_of_view = 0.72}
 game.sun{towards = {-0.5, 0.75, 0.6}, strength = 2.3}

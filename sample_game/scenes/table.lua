@@ -6,7 +6,7 @@ local mass = game.key{name = "scene.mass_kg", unit = "kg", default = 10, least =
 local wide, deep, thick, height = 1.2, 0.7, 0.012, 0.7 -- m
 local top = game.cook{
     mesh = game.mesh.box{half_extents = {0.5 * wide, 0.5 * thick, 0.5 * deep}},
-    material = "glass", model = "lattice", thickness = thick, lattice = {cells = cells},
+    material = "glass", model = "lattice", thickness = thick, lattice = {wanted_cells = cells},
 }
 game.camera{eye = {1.35, 1.45, 1.75}, target = {0, 0.4, 0}, field_of_view = 0.72}
 game.sun{towards = {-0.5, 0.75, 0.6}, strength = 2.3}

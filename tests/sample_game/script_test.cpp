@@ -591,8 +591,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "e2d8416b1d4ccc84"}, KnownHash{"wall", "c5c5f4e04935eab0"},
-                                         KnownHash{"pane", "d3a9712b78a85d61"}, KnownHash{"drop", "767c174e7fe12163"}),
+                         testing::Values(KnownHash{"vase", "1fff2d41121899a8"}, KnownHash{"wall", "e9ac405c6313e25d"},
+                                         KnownHash{"pane", "f7317fa2a3b8ce16"}, KnownHash{"drop", "1dc7115adadf946a"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {

@@ -118,6 +118,7 @@ TEST(BlowsRoom, EveryBlowThatJoinsATaskIsTold) {
 
 TEST(BlowsRoom, ACutWhoseMeshFindsNoRoomIsNamedAndMadeWhenThereIs) {
     // Panes until there is no room for another's drawn mesh: the last one has no rows to spare for what cracks add.
+    // Each has a mesh of its own, as it has pins of its own.
     Settings settings = small_settings();
     settings.limits.view_vertices = 6300;
     World world = make_world(settings);
@@ -126,6 +127,8 @@ TEST(BlowsRoom, ACutWhoseMeshFindsNoRoomIsNamedAndMadeWhenThereIs) {
     for (int i = 0; i < 16; ++i) {
         SpawnSettings spawn;
         spawn.pose.position = {static_cast<float>(i), 0, 0};
+        const Box foot{{-1, -1, -1}, {1, 0.001f, 1}};
+        spawn.pins = &foot, spawn.pin_count = 1;
         const Result<BodyId> pane = world.spawn(model, spawn);
         if (!pane) break;
         panes.push_back(*pane);

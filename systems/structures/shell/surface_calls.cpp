@@ -61,6 +61,11 @@ void empty(RunRows& rows, Row<Structures> structure) {
     clear_shape(ShellView(rows, structure));
 }
 
+// What a shell's rows hold is its damage model's affair: DamageModels::check_shell.
+std::string no_trouble([[maybe_unused]] const RunRows& rows, [[maybe_unused]] Row<Structures> structure) {
+    return "";
+}
+
 }  // namespace
 
 void add_surface_calls(StructureCalls& calls) {
@@ -74,6 +79,7 @@ void add_surface_calls(StructureCalls& calls) {
     calls.remember_drawn = remember;
     calls.drawn_parts = drawn_parts;
     calls.empty = empty;
+    calls.trouble = no_trouble;
 }
 
 }  // namespace cullet

@@ -132,6 +132,7 @@ TEST(CheckState, AWorkingShellThatIsSomebodyElsesTooIsRefused) {
             const uint32_t model = state.models.append(1);
             state.models.is_used[model] = 1;
             state.models.structure[model] = state.tasks.working[0];
+            state.models.mesh[model] = {};
             ++state.structures.users[state.tasks.working[0]];
         },
         "tasks.working[0]");

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "components/state.hpp"
@@ -12,16 +13,17 @@
 namespace cullet {
 namespace {
 
-// Calls are pointers to functions and nothing else: one that is missing is zero.
+// Calls are pointers to functions: one that is missing is zero. Only bears_loads is a flag.
 TEST(Structures, EachKindGivesEachCall) {
     using Words = std::array<uintptr_t, sizeof(StructureCalls) / sizeof(uintptr_t)>;
     State state;
     ASSERT_NE(state.structures.append(1), kNone);
     for (uint8_t kind = 0; kind < structures().size(); ++kind) {
         state.structures.kind[0] = kind;
+        const auto calls = std::bit_cast<Words>(calls_of(state.structures, Row<Structures>(0)));
         uint32_t missing = 0;
-        for (const uintptr_t call : std::bit_cast<Words>(calls_of(state.structures, Row<Structures>(0))))
-            missing += call == 0;
+        for (size_t word = 0; word < calls.size(); ++word)
+            missing += calls[word] == 0 && word != offsetof(StructureCalls, bears_loads) / sizeof(uintptr_t);
         EXPECT_EQ(missing, 0u) << structures()[kind].name();
     }
 }

@@ -9,7 +9,7 @@ namespace {
 
 using L = LatticeSettings;
 constexpr Setting kSettings[] = {
-    number<&L::cells>("cells", "1", {200, 20000}, "wanted: what the solid can come apart into"),
+    number<&L::cells>("wanted_cells", "1", {200, 20000}, "what the solid can come apart into"),
     number<&L::most_cells>("most_cells", "1", {200, 100000}, "a thin body that needs more of them is refused"),
     number<&L::element_edges>("element_edges", "1", {2, 4},
                               "a finite element's edge over that of a cell, 2 or 4; 2 is more accurate and slower"),
