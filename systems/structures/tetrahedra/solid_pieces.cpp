@@ -6,7 +6,7 @@
 namespace cullet {
 namespace {
 
-uint32_t next_row(Range& range, const char* name) {
+uint32_t next_row(Range& range, [[maybe_unused]] const char* name) {
     CULLET_ASSERT(range.count < range.capacity, "%u rows of %s are too few for a piece", range.capacity, name);
     return range.first + range.count++;
 }
