@@ -99,6 +99,13 @@ void print_summary(const CookOptions& options, const CachedModel& cooked) {
 }  // namespace
 
 int cook_command(const CookOptions& options) {
+    // Cooking may take long: what cannot be written is said before.
+    const std::filesystem::path folder = std::filesystem::path(options.out).parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+        fmt::print(stderr, "{}: there is no folder {}; make it, or give another --out.\n", options.out,
+                   folder.string());
+        return 2;
+    }
     const Result<CachedModel> cooked = cook_file(options);
     const Result<void> written =
         cooked.ok() ? write_model(cooked->model, options.out) : Result<void>(Error{cooked.error()});

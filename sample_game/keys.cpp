@@ -78,8 +78,9 @@ Result<void> Keys::set(const std::string& assignment) {
         return Error{fmt::format("--set {}: \"{}\" is not a number; give {} in {}.", assignment, value, name,
                                  key->unit == "1" ? "plain digits" : key->unit)};
     if (number < key->least || number > key->most)
-        return Error{fmt::format("--set {}: {} is from {} to {} {}.", assignment, name, short_number(key->least),
-                                 short_number(key->most), key->unit == "1" ? "" : key->unit)};
+        return Error{fmt::format("--set {}: {} is from {} to {}{}.", assignment, name, short_number(key->least),
+                                 short_number(key->most),
+                                 key->unit.empty() || key->unit == "1" ? "" : " " + key->unit)};
     key->value = number;
     return {};
 }

@@ -119,7 +119,11 @@ Sandbox::~Sandbox() {
 std::string Sandbox::load(const std::string& text, const std::string& file) {
     file_ = file;
     if (text.starts_with(LUA_SIGNATURE[0])) return file + ": this is compiled Lua; give the text of the script";
-    const int status = luaL_loadbufferx(state_, text.data(), text.size(), ("@" + file).c_str(), "t");
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+        return file + ": this is UTF-16; save the script as UTF-8";
+    // Editors of Windows put a mark before the text.
+    const size_t mark = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
+    const int status = luaL_loadbufferx(state_, text.data() + mark, text.size() - mark, ("@" + file).c_str(), "t");
     if (status == LUA_OK) return "";
     const char* message = status == LUA_ERRMEM ? nullptr : lua_tostring(state_, -1);
     std::string sentence = message ? message : file + ": " + no_memory_left();

@@ -106,6 +106,8 @@ TEST(Script, AnErrorNamesFileLineWhatWasGivenAndWhatWasExpected) {
          "test.lua:2: error was given a table; expected a sentence that says what went wrong"},
         {"string.format('%d', 'x')", "test.lua:1: bad argument #2 to 'format' (number expected, got string)"},
         {"\x1bLuaT", "test.lua: this is compiled Lua; give the text of the script"},
+        {"\xff\xfex", "test.lua: this is UTF-16; save the script as UTF-8"},
+        {"\xef\xbb\xbfx = = 1", "test.lua:1: unexpected symbol near '='"},
         {"game.key{name = 'x', choices = 'y, z', default = 'w'}",
          "test.lua:1: game.key: default is \"w\"; expected one of y, z"},
         {"game.key{name = 'x', choices = '', default = 'w'}",
