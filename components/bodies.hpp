@@ -63,8 +63,9 @@ struct Bodies : RangeTable<Bodies> {
     Column<uint32_t> colour{*this, "colour"};                              // stable number for pictures
     // Drawn mesh in view space.
     Column<std::array<float, 6>> drawn_box{*this, "drawn_box", "m", Keep::Scratch};  // low, high; body frame
-    Column<Row<ModelMeshes>> model_mesh{*this, "model_mesh"};  // what it shows while it is intact; none: rows of its own
-    Column<Range> view_vertices{*this, "view_vertices"};       // of capacity 0 where they are those of model_mesh
+    Column<Row<ModelMeshes>> model_mesh{*this,
+                                        "model_mesh"};    // what it shows while it is intact; none: rows of its own
+    Column<Range> view_vertices{*this, "view_vertices"};  // of capacity 0 where they are those of model_mesh
     Column<Range> view_indices{*this, "view_indices"};
     Column<std::array<uint32_t, kMostRuns>> run_indices{*this, "run_indices"};  // by kind, then by drawn material
     Column<std::array<uint16_t, kMostDrawnMaterials>> drawn_materials{*this, "drawn_materials"};  // rising; rest 0

@@ -33,15 +33,15 @@ struct Tasks : Table<Tasks> {
     Column<Vec3> start_velocity{*this, "start_velocity", "m/s"};   // V of the centre of mass, body axes
     Column<Vec3> start_spin{*this, "start_spin", "rad/s"};         // w, body axes
     Column<float> strength_scale{*this, "strength_scale"};         // the game's; infinite strength never cracks
-    Column<uint64_t> strength_seed{*this, "strength_seed"};        // of a working copy that knows only the model's; or 0
-    Column<uint32_t> steps_done{*this, "steps_done"};              // since the last (re)start
-    Column<uint32_t> steps_granted{*this, "steps_granted"};        // this frame
-    Column<uint32_t> crack_count{*this, "crack_count"};            // cut edges in this run
-    Column<uint32_t> start_count{*this, "start_count"};            // cracks started in this run
-    Column<uint8_t> lacks_room{*this, "lacks_room"};               // its shell has none for a crack of this run
-    Column<uint64_t> units_owed{*this, "units_owed"};              // by cuts, taken from the next grant
-    Column<uint8_t> is_held{*this, "is_held"};                     // body (and striker) stand still meanwhile
-    Column<uint8_t> is_late{*this, "is_late"};  // the contact was solved as between rigid bodies meanwhile
+    Column<uint64_t> strength_seed{*this, "strength_seed"};  // of a working copy that knows only the model's; or 0
+    Column<uint32_t> steps_done{*this, "steps_done"};        // since the last (re)start
+    Column<uint32_t> steps_granted{*this, "steps_granted"};  // this frame
+    Column<uint32_t> crack_count{*this, "crack_count"};      // cut edges in this run
+    Column<uint32_t> start_count{*this, "start_count"};      // cracks started in this run
+    Column<uint8_t> lacks_room{*this, "lacks_room"};         // its shell has none for a crack of this run
+    Column<uint64_t> units_owed{*this, "units_owed"};        // by cuts, taken from the next grant
+    Column<uint8_t> is_held{*this, "is_held"};               // body (and striker) stand still meanwhile
+    Column<uint8_t> is_late{*this, "is_late"};               // the contact was solved as between rigid bodies meanwhile
     Column<float> load{*this, "load", "N"};  // the run stands for what presses on the body, not for a blow; 0: a blow
     Column<uint32_t> frames_held{*this, "frames_held"};
     Column<uint32_t> part_count{*this, "part_count"};  // components of its shell, once it ended

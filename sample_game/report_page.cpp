@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sample_game/html_text.hpp"
 #include "sample_game/notes.hpp"
 
 namespace cullet {
@@ -26,23 +27,6 @@ table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 td, th { text-align: left; padding: .2rem 1.4rem .2rem 0; border-bottom: 1px solid var(--line); font-weight: 400; }
 th { color: var(--soft); }
 )";
-
-std::string escaped(const std::string& text) {
-    std::string safe;
-    for (const char c : text) {
-        if (c == '&')
-            safe += "&amp;";
-        else if (c == '<')
-            safe += "&lt;";
-        else if (c == '>')
-            safe += "&gt;";
-        else if (c == '"')
-            safe += "&quot;";
-        else
-            safe += c;
-    }
-    return safe;
-}
 
 /// 1, 2 or 5 times a power of ten: about a fifth of `most`.
 double grid_step(double most) {

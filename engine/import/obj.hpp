@@ -1,5 +1,5 @@
-// OBJ files, read here: assimp 5.2 drops lines with a blank in front, drops all texture coordinates for one wrong number,
-// and reads "1,5" as 1.
+// OBJ files, read here: assimp 5.2 drops lines with a blank in front, drops all texture coordinates for one wrong
+// number, and reads "1,5" as 1.
 #pragma once
 #include <functional>
 #include <optional>

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sample_game/html_text.hpp"
 #include "sample_game/notes.hpp"
 
 namespace cullet::reproduce {
@@ -59,23 +60,6 @@ const char* style_of(Verdict verdict) {
             break;
     }
     return "none";
-}
-
-std::string escaped(const std::string& text) {
-    std::string safe;
-    for (const char c : text) {
-        if (c == '&')
-            safe += "&amp;";
-        else if (c == '<')
-            safe += "&lt;";
-        else if (c == '>')
-            safe += "&gt;";
-        else if (c == '"')
-            safe += "&quot;";
-        else
-            safe += c;
-    }
-    return safe;
 }
 
 /// Four digits that count, whole numbers whole.

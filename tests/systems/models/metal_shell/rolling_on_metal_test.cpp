@@ -34,7 +34,9 @@ Rolling roll(double z, float speed, double turn) {
     EXPECT_TRUE(panel.ok()) << panel.error();
     SphereSettings ball;
     ball.radius = 0.1f, ball.mass = 30;
-    const auto along = static_cast<float>(std::cos(turn)), aside = static_cast<float>(std::sin(turn));
+    double sine = 0, cosine = 0;
+    sine_cosine(turn, sine, cosine);
+    const auto along = static_cast<float>(cosine), aside = static_cast<float>(sine);
     ball.pose.position = {-0.8f, 1.1f, static_cast<float>(z)};
     ball.motion.velocity = {speed * along, 0, speed * aside};
     ball.motion.angular_velocity = {10 * speed * aside, 0, -10 * speed * along};
@@ -49,7 +51,7 @@ Rolling roll(double z, float speed, double turn) {
             first = double{at.x};
             continue;
         }
-        rolling.way = (double{at.x} - first) / std::cos(turn);
+        rolling.way = (double{at.x} - first) / cosine;
         rolling.low = std::min(rolling.low, double{at.y}), rolling.high = std::max(rolling.high, double{at.y});
         rolling.speed = double{world.motion(*id)->velocity.x};
     }
