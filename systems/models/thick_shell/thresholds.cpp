@@ -45,6 +45,7 @@ void measure_thresholds(RunRows& state, Row<Structures> shell, const Cooking& fr
     float speeds[kThresholdPlaces], forces[kThresholdPlaces];
     for (uint32_t place = 0; place < kThresholdPlaces; ++place) {
         const FirstCrack crack = first_crack(state, shell, seeded_direction(from.settings.seed, place));
+        if (!(crack.speed > 0)) return estimate_thresholds(state, shell);  // no room: else any touch would be a hit
         speeds[place] = crack.speed;
         forces[place] = crack.force;
         from.tell(0.4f + 0.6f * static_cast<float>(place + 1) / kThresholdPlaces);

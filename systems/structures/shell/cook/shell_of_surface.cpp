@@ -7,6 +7,10 @@
 namespace cullet {
 namespace {
 
+// Of a material with a grain a triangle has four links of stiffness in place of one. Without room for a run on it no
+// threshold was measured: any touch was a hit, and no load too much.
+constexpr uint32_t kRoomOfGrain = 4;
+
 // The surface's corners and triangles with the mesh's attributes found again.
 struct SourceArrays {
     std::vector<Vec3> normals;
@@ -39,7 +43,8 @@ Result<std::shared_ptr<Model::Contents>> shell_of_surface(const Cooking& from, c
                                                           const Extrusion& extrusion) {
     const auto vertices = static_cast<uint32_t>(surface.positions.size());
     const auto elements = static_cast<uint32_t>(surface.triangles.size());
-    const auto contents = std::make_shared<Model::Contents>(cooking_limits(vertices, elements));
+    const uint32_t room = from.material.settings.across_young_modulus > 0 ? kRoomOfGrain : 1;
+    const auto contents = std::make_shared<Model::Contents>(cooking_limits(room * vertices, elements));
     Workbench& state = contents->state;
     fill_materials(state.materials);
     const SourceArrays arrays = attributes_of(surface, from.fine, from.has_made_normals);
