@@ -53,14 +53,13 @@ class Room {
     bool was_full_ = false;
 };
 
-/// While one lives, lists of this thread stand in the room, which is empty at first. None of them may outlive it. What
-/// finds no room comes from the system.
+/// While one lives, lists of this thread stand in the room, which is empty at first. None of them may outlive it, but
+/// for those of work that goes on in a later scope, maybe on another thread. What finds no room comes from the system.
 class RoomScope {
  public:
-    explicit RoomScope(Room& room) : before_(current_) {
-        room.reset();
-        current_ = &room;
-    }
+    struct GoesOn {};
+    explicit RoomScope(Room& room) : RoomScope(room, GoesOn()) { room.reset(); }
+    RoomScope(Room& room, GoesOn) : before_(current_) { current_ = &room; }
     ~RoomScope() { current_ = before_; }
     RoomScope(const RoomScope&) = delete;
     RoomScope& operator=(const RoomScope&) = delete;

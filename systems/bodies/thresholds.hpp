@@ -18,6 +18,16 @@ inline float first_crack_speed(const Structures& structures, Row<Structures> s, 
 inline float wake_speed(const Structures& structures, Row<Structures> s, float strength_scale) {
     return kWakeShare * first_crack_speed(structures, s, strength_scale) * (structures.has_cracks[s] ? 0.5f : 1.0f);
 }
+/// Whether it breaks is known before anybody sees that it stands still: a bump below the speed of the first crack is
+/// the solver's affair at once. The speed of a solid is that of a few of its places, and weaker ones break below it;
+/// its first solve tells within a frame, and only what breaks goes on.
+inline bool is_worth_a_hold(const Structures& structures, const Tasks& tasks, uint32_t task,
+                            const DamageSettings& settings) {
+    const Row<Structures> source = tasks.source[task];
+    return settings.hold_seconds > 0 &&
+           (!is_shell(structures, source) ||
+            tasks.approach_speed[task] > first_crack_speed(structures, source, tasks.strength_scale[task]));
+}
 /// Fragments too light, or of too few elements, break no further (section 6.1); the game says where.
 inline bool is_worth_breaking(const Structures& structures, Row<Structures> s, const DamageSettings& settings) {
     return structures.generation[s] == 0 ||

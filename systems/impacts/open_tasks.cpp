@@ -61,9 +61,7 @@ void lay_queued(BodyRows& state, const QueuedHits& queued, Row<Tasks> task, uint
 bool will_be_held(const RunRows& state, const DamageSettings& settings, Row<Tasks> task) {
     const Tasks& tasks = state.tasks;
     return static_cast<TaskState>(tasks.state[task]) == TaskState::Running && !tasks.is_late[task] &&
-           settings.hold_seconds > 0 &&
-           tasks.approach_speed[task] >
-               first_crack_speed(state.structures, tasks.source[task], tasks.strength_scale[task]);
+           is_worth_a_hold(state.structures, tasks, task, settings);
 }
 
 // A striker that touches k bodies whose tasks open in one frame is given to each as k times as light: k strikers of a

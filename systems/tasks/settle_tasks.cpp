@@ -37,10 +37,7 @@ void settle_tasks(Serial, Step step, RunTables runs, Bodies& bodies, const Struc
         if (task_state == TaskState::Free || is_ahead(runs.tasks, t)) continue;
         const bool is_over = task_state != TaskState::Running;
         if (!is_over && !runs.tasks.is_held[t] && !runs.tasks.is_late[t]) {
-            const bool is_worth_it = ledger.settings.hold_seconds > 0 &&
-                                     runs.tasks.approach_speed[t] > first_crack_speed(structures, runs.tasks.source[t],
-                                                                                      runs.tasks.strength_scale[t]);
-            if (is_worth_it) {
+            if (is_worth_a_hold(structures, runs.tasks, t, ledger.settings)) {
                 runs.tasks.is_held[t] = 1;
                 for (ImpactEvent& e : told.impacts.all())
                     e.is_held = e.is_held || e.body == body_id(bodies, runs.tasks.body[t]);

@@ -3,15 +3,17 @@
 #include <algorithm>
 
 #include "systems/models/lattice/gather_blow.hpp"
+#include "systems/models/lattice/loop.hpp"
 #include "systems/models/lattice/shared/brittle.hpp"
 #include "systems/structures/tetrahedra/solid_rows.hpp"
 
 namespace cullet::lattice {
 namespace {
 
-constexpr uint64_t kWorkAStep = 1 << 18;       // multiplications: a tenth of a millisecond
-constexpr uint64_t kUnitsCutRow = 1500;        // a triangle or a tetrahedron: 3 us
-constexpr uint64_t kUnitsHullTriangle = 1500;  // of a piece
+constexpr uint64_t kWorkAStep = 1 << 18;      // multiplications: a tenth of a millisecond
+constexpr uint64_t kUnitsFaces = 400;         // of a cell: 0.8 us
+constexpr uint64_t kUnitsHullTriangle = 300;  // of a part that is halved: 0.6 us
+constexpr double kNsAUnit = 2;
 constexpr uint32_t kHullDepth = 4;
 constexpr double kHullExcess = 1.3;  // of a piece's hulls: closer ones take as long again
 constexpr size_t kFewestCorners = 4;
@@ -33,6 +35,10 @@ BreakingRoom& breaking(const RunRows& rows, Row<Tasks> task) {
 }
 RoomOfRun& room_of(const BreakingRoom& room) {
     return *static_cast<RoomOfRun*>(room.of_model.get());
+}
+
+uint64_t units_of(double nanoseconds) {
+    return static_cast<uint64_t>(nanoseconds / kNsAUnit);
 }
 
 /// Of the rooms of a run.
@@ -110,15 +116,37 @@ uint32_t number_pieces(const Breakable& breakable, RoomOfRun& room) {
     return count;
 }
 
-void cut_skins(const RunRows& rows, Row<Tasks> task, const KnownSolid& known, BreakingRoom& breaking) {
-    RoomOfRun& room = room_of(breaking);
-    const uint32_t count = number_pieces(breakable_of(known), room);
-    if (count < 2) return;
+RunStage begin_cut(const KnownSolid& known, RoomOfRun& room) {
+    room.piece_count = number_pieces(breakable_of(known), room);
+    room.piece = 0;
+    if (room.piece_count < 2) return RunStage::Done;
     const RoomScope scope(room.lists);
-    const Result<List<PieceSkin>> skins = cut_pieces(known.cooked, room.faces.places, room.labels, count);
-    if (!skins) return;  // it stays whole: a point lay in a plane forty times over
+    room.cut.emplace(known.cooked, room.faces.places, room.labels, room.piece_count);
+    return RunStage::Cut;
+}
+
+RunStage cut_some(RoomOfRun& room, uint64_t& units) {
+    const RoomScope scope(room.lists, RoomScope::GoesOn());
+    const bool is_done = room.cut->advance();
+    units = units_of(room.cut->nanoseconds());
+    if (!is_done) return RunStage::Cut;
+    if (room.cut->error().empty()) return RunStage::Skins;
+    room.cut.reset();
+    return RunStage::Done;  // it stays whole: a point lay in a plane forty times over
+}
+
+RunStage lay_skin(const RunRows& rows, Row<Tasks> task, const KnownSolid& known, RoomOfRun& room, BrokenSolid& broken,
+                  uint64_t& units) {
+    const RoomScope scope(room.lists, RoomScope::GoesOn());
+    const uint32_t label = room.piece++;
     const Row<CookedSolids> row = rows.solids.cooked[solid_of(rows.structures, rows.tasks.source[task])];
-    lay_pieces(rows, row, known.cooked, *skins, room.labels, breaking.broken);
+    lay_piece(rows, row, known.cooked, room.cut->skin_of(label), room.labels, label, broken);
+    units = 2 * units_of(room.cut->nanoseconds());
+    if (room.piece < room.piece_count) return RunStage::Skins;
+    room.cut.reset();
+    lay_touches(known.cooked.solid, broken);
+    room.piece = 0;
+    return broken.pieces.size() > 1 ? RunStage::Hulls : RunStage::Done;
 }
 
 SolidHull box_of(std::span<const Vec3d> points) {
@@ -133,21 +161,61 @@ SolidHull box_of(std::span<const Vec3d> points) {
     return box;
 }
 
-void choose_hulls(const RunRows& rows, RoomOfRun& room, BrokenSolid& broken) {
+void begin_halving(RoomOfRun& room, const BrokenSolid& broken) {
     const RoomScope scope(room.lists);
-    const uint32_t number = room.piece++;
-    const BrokenPiece& piece = broken.pieces[number];
-    const std::span<const Vec3d> places = piece.points.of(broken.points);
+    const BrokenPiece& piece = broken.pieces[room.piece];
     List<Triangle> triangles;
     triangles.reserve(piece.triangles.count);
     for (const BrokenTriangle& t : piece.triangles.of(broken.triangles))
         triangles.push_back({t.corners[0], t.corners[1], t.corners[2]});
     HalvingSettings settings;
     settings.most_excess = kHullExcess, settings.depth = kHullDepth;
-    List<SolidHull> hulls = convex_pieces(rows.scratch, places, triangles, settings);
-    std::erase_if(hulls, [](const SolidHull& hull) { return hull.points.size() < kFewestCorners; });
-    if (hulls.empty()) hulls.push_back(box_of(places));
-    lay_hulls(hulls, number, broken);
+    room.halving.emplace(piece.points.of(broken.points), triangles, settings);
+}
+
+RunStage choose_hulls(const RunRows& rows, RoomOfRun& room, BrokenSolid& broken, uint64_t& units) {
+    if (!room.halving) begin_halving(room, broken);
+    const RoomScope scope(room.lists, RoomScope::GoesOn());
+    units = kUnitsHullTriangle * room.halving->next_rows();
+    if (!room.halving->advance(rows.scratch)) return RunStage::Hulls;
+    {
+        List<SolidHull> hulls = room.halving->take();
+        std::erase_if(hulls, [](const SolidHull& hull) { return hull.points.size() < kFewestCorners; });
+        if (hulls.empty()) hulls.push_back(box_of(broken.pieces[room.piece].points.of(broken.points)));
+        lay_hulls(hulls, room.piece, broken);
+    }
+    room.halving.reset();
+    return ++room.piece < broken.pieces.size() ? RunStage::Hulls : RunStage::Done;
+}
+
+/// Some of the stage at work. Returns what it cost.
+uint64_t work_stage(const RunRows& rows, Row<Tasks> task, const KnownSolid& known, BreakingRoom& breaking) {
+    RoomOfRun& room = room_of(breaking);
+    uint64_t units = 0;
+    switch (room.stage) {
+        case RunStage::Solve:
+            units = kUnitsAStep;
+            if (!advance_break(breakable_of(known).body, room.run, kWorkAStep)) break;
+            room.stage = room.run.crack_count > 0 ? RunStage::Faces : RunStage::Done;
+            break;
+        case RunStage::Faces:
+            shape_faces(rows, task, known, breaking);
+            units = kUnitsFaces * known.cooked.solid.cells.size();
+            room.stage = begin_cut(known, room);
+            break;
+        case RunStage::Cut:
+            room.stage = cut_some(room, units);
+            break;
+        case RunStage::Skins:
+            room.stage = lay_skin(rows, task, known, room, breaking.broken, units);
+            break;
+        case RunStage::Hulls:
+            room.stage = choose_hulls(rows, room, breaking.broken, units);
+            break;
+        case RunStage::Done:
+            break;
+    }
+    return units;
 }
 
 }  // namespace
@@ -178,6 +246,7 @@ void begin_run(const RunRows& rows, Row<Tasks> task) {
     const RoomBytes bytes = bytes_for(known);
     if (!is_enough(room_of(own), bytes)) own.of_model = std::make_shared<RoomOfRun>(bytes.run, bytes.lists);
     RoomOfRun& room = room_of(own);
+    room.forget_lists();
     room.arena.reset();
     room.run = take_break(room.arena, breakable.body);
     room.faces = take_faces(room.arena, breakable.body);
@@ -192,33 +261,12 @@ void begin_run(const RunRows& rows, Row<Tasks> task) {
 }
 
 bool advance_run(const RunRows& rows, Row<Tasks> task, uint64_t& units) {
-    units = 0;
-    BreakingRoom& room_of_break = breaking(rows, task);
+    BreakingRoom& room = breaking(rows, task);
     const KnownSolid& known = known_of(rows, rows.tasks.source[task]);
-    RoomOfRun& room = room_of(room_of_break);
-    switch (room.stage) {
-        case RunStage::Solve:
-            if (!advance_break(breakable_of(known).body, room.run, kWorkAStep)) break;
-            room.stage = room.run.crack_count > 0 ? RunStage::Faces : RunStage::Done;
-            break;
-        case RunStage::Faces:
-            shape_faces(rows, task, known, room_of_break);
-            room.stage = RunStage::Skins;
-            break;
-        case RunStage::Skins:
-            cut_skins(rows, task, known, room_of_break);
-            units = kUnitsCutRow * (known.cooked.mesh.triangles.size() + known.cooked.solid.lattice.fine.size());
-            room.stage = room_of_break.broken.pieces.size() > 1 ? RunStage::Hulls : RunStage::Done;
-            break;
-        case RunStage::Hulls:
-            units = kUnitsHullTriangle * room_of_break.broken.pieces[room.piece].triangles.count;
-            choose_hulls(rows, room, room_of_break.broken);
-            if (room.piece == room_of_break.broken.pieces.size()) room.stage = RunStage::Done;
-            break;
-        case RunStage::Done:
-            break;
-    }
-    return room.stage == RunStage::Done;
+    uint64_t sum = 0;
+    while (room_of(room).stage != RunStage::Done && sum < kUnitsAStep) sum += work_stage(rows, task, known, room);
+    units = sum > kUnitsAStep ? sum - kUnitsAStep : 0;
+    return room_of(room).stage == RunStage::Done;
 }
 
 const RoomOfRun& run_of(const RunRows& rows, Row<Tasks> task) {

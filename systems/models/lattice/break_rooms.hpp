@@ -19,12 +19,20 @@ struct Breakable {
     LatticePoints points;
 };
 
-enum class RunStage : uint8_t { Solve, Faces, Skins, Hulls, Done };
+enum class RunStage : uint8_t { Solve, Faces, Cut, Skins, Hulls, Done };
 
 /// Of one run.
 struct RoomOfRun {
     RoomOfRun(uint64_t bytes, uint64_t bytes_of_lists)
         : arena(bytes), lists(bytes_of_lists), run_bytes(bytes), list_bytes(bytes_of_lists) {}
+    ~RoomOfRun() { forget_lists(); }
+    RoomOfRun(const RoomOfRun&) = delete;
+    RoomOfRun& operator=(const RoomOfRun&) = delete;
+    /// What stands among the lists, if a run was cancelled there.
+    void forget_lists() {
+        const RoomScope scope(lists, RoomScope::GoesOn());
+        cut.reset(), halving.reset();
+    }
     Arena arena;
     Room lists;  // of the cut, and of hulls
     uint64_t run_bytes, list_bytes;
@@ -33,15 +41,18 @@ struct RoomOfRun {
     CrackFaces faces;
     std::vector<uint8_t> own;  // by cell: the body has it
     std::vector<uint32_t> labels;
-    uint32_t piece = 0;  // whose hulls come next
+    std::optional<PieceCut> cut;
+    std::optional<ConvexHalving> halving;
+    uint32_t piece_count = 0;
+    uint32_t piece = 0;  // whose skin comes next, and then whose hulls
 };
 
 /// Makes ready for breaks of this structure.
 void prepare_rooms(const RunRows& rows, Row<Structures> structure);
 /// The task's run begins, in the room that the task has taken: its blow stands in LatticeRuns.
 void begin_run(const RunRows& rows, Row<Tasks> task);
-/// One step of the task's run, which changes nothing but its room. True: it is done. `units`: what it cost beyond a
-/// step of the solve.
+/// One step of the task's run, which changes nothing but its room. True: it is done. `units`: what it cost beyond
+/// kUnitsAStep.
 bool advance_run(const RunRows& rows, Row<Tasks> task, uint64_t& units);
 
 const RoomOfRun& run_of(const RunRows& rows, Row<Tasks> task);

@@ -98,21 +98,6 @@ void weigh_piece(const PieceSkin& skin, BrokenPiece& piece) {
     piece.radius = most;
 }
 
-void find_touches(const Solid& solid, BrokenSolid& broken) {
-    for (const SolidBond& bond : solid.bonds) {
-        const uint32_t a = broken.piece_of[bond.a], b = broken.piece_of[bond.b];
-        if (a == b || a == kNone || b == kNone) continue;
-        const uint32_t low = std::min(a, b), high = std::max(a, b);
-        auto at = std::find_if(broken.touches.begin(), broken.touches.end(),
-                               [&](const BrokenTouch& t) { return t.a == low && t.b == high; });
-        if (at == broken.touches.end()) at = broken.touches.insert(at, BrokenTouch{low, high, 0, {}, {}});
-        at->area += bond.area;
-        at->point += bond.area * bond.centroid;
-        // The bond's normal runs from its a to its b.
-        at->normal += (a == low ? -bond.area : bond.area) * bond.normal;
-    }
-}
-
 }  // namespace
 
 void BrokenSolid::clear() {
@@ -174,36 +159,46 @@ uint32_t taken_rooms(const RunRows& rows) {
     return count;
 }
 
-void lay_pieces(const SolidRows& rows, Row<CookedSolids> row, const CookedSolid& solid,
-                std::span<const PieceSkin> skins, std::span<const uint32_t> piece_of, BrokenSolid& broken) {
-    const uint32_t first_source = rows.cooked_solids.triangles[row].first;
-    broken.piece_of.assign(piece_of.size(), kNone);
-    for (uint32_t label = 0; label < skins.size(); ++label) {
-        const PieceSkin& skin = skins[label];
-        BrokenPiece piece;
-        if (static_cast<double>(skin.triangles.size()) < kFewTriangles) continue;
-        weigh_piece(skin, piece);
-        if (!(piece.volume > 0)) continue;
-        const auto number = static_cast<uint32_t>(broken.pieces.size());
-        piece.one_with = number;
-        piece.cells.first = static_cast<uint32_t>(broken.cells.size());
-        for (uint32_t c = 0; c < piece_of.size(); ++c) {
-            if (piece_of[c] != label) continue;
-            broken.piece_of[c] = number;
-            broken.cells.push_back(c);
-            ++piece.cells.count;
-        }
-        piece.points = {static_cast<uint32_t>(broken.points.size()), static_cast<uint32_t>(skin.places.size())};
-        broken.points.insert(broken.points.end(), skin.places.begin(), skin.places.end());
-        piece.triangles = {static_cast<uint32_t>(broken.triangles.size()),
-                           static_cast<uint32_t>(skin.triangles.size())};
-        for (const PieceTriangle& t : skin.triangles)
-            broken.triangles.push_back(t.source == kNone
-                                           ? flat_triangle(skin, t, solid.mesh)
-                                           : triangle_of(rows, first_source + t.source, solid.mesh, t.source, skin, t));
-        broken.pieces.push_back(piece);
+void lay_piece(const SolidRows& rows, Row<CookedSolids> row, const CookedSolid& solid, const PieceSkin& skin,
+               std::span<const uint32_t> labels, uint32_t label, BrokenSolid& broken) {
+    if (broken.piece_of.empty()) broken.piece_of.assign(labels.size(), kNone);
+    BrokenPiece piece;
+    if (static_cast<double>(skin.triangles.size()) < kFewTriangles) return;
+    weigh_piece(skin, piece);
+    if (!(piece.volume > 0)) return;
+    const auto number = static_cast<uint32_t>(broken.pieces.size());
+    piece.one_with = number;
+    piece.cells.first = static_cast<uint32_t>(broken.cells.size());
+    for (uint32_t c = 0; c < labels.size(); ++c) {
+        if (labels[c] != label) continue;
+        broken.piece_of[c] = number;
+        broken.cells.push_back(c);
+        ++piece.cells.count;
     }
-    find_touches(solid.solid, broken);
+    piece.points = {static_cast<uint32_t>(broken.points.size()), static_cast<uint32_t>(skin.places.size())};
+    broken.points.insert(broken.points.end(), skin.places.begin(), skin.places.end());
+    piece.triangles = {static_cast<uint32_t>(broken.triangles.size()), static_cast<uint32_t>(skin.triangles.size())};
+    const uint32_t first_source = rows.cooked_solids.triangles[row].first;
+    for (const PieceTriangle& t : skin.triangles)
+        broken.triangles.push_back(t.source == kNone
+                                       ? flat_triangle(skin, t, solid.mesh)
+                                       : triangle_of(rows, first_source + t.source, solid.mesh, t.source, skin, t));
+    broken.pieces.push_back(piece);
+}
+
+void lay_touches(const Solid& solid, BrokenSolid& broken) {
+    for (const SolidBond& bond : solid.bonds) {
+        const uint32_t a = broken.piece_of[bond.a], b = broken.piece_of[bond.b];
+        if (a == b || a == kNone || b == kNone) continue;
+        const uint32_t low = std::min(a, b), high = std::max(a, b);
+        auto at = std::find_if(broken.touches.begin(), broken.touches.end(),
+                               [&](const BrokenTouch& t) { return t.a == low && t.b == high; });
+        if (at == broken.touches.end()) at = broken.touches.insert(at, BrokenTouch{low, high, 0, {}, {}});
+        at->area += bond.area;
+        at->point += bond.area * bond.centroid;
+        // The bond's normal runs from its a to its b.
+        at->normal += (a == low ? -bond.area : bond.area) * bond.normal;
+    }
 }
 
 void lay_hulls(std::span<const SolidHull> hulls, uint32_t piece, BrokenSolid& broken) {

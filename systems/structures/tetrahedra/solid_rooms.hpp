@@ -92,9 +92,12 @@ BreakingRoom* take_room(const RunRows& rows, Row<Tasks> task);
 /// Tasks that have one.
 uint32_t taken_rooms(const RunRows& rows);
 
-/// Of pieces as they were cut: surfaces with the artist's normals and uvs, what they weigh, who is beside whom.
-void lay_pieces(const SolidRows& rows, Row<CookedSolids> row, const CookedSolid& solid,
-                std::span<const PieceSkin> skins, std::span<const uint32_t> piece_of, BrokenSolid& broken);
+/// Of one piece as it was cut, of the cells with this label: its surface with the artist's normals and uvs, and what it
+/// weighs. One that encloses nothing is left out.
+void lay_piece(const SolidRows& rows, Row<CookedSolids> row, const CookedSolid& solid, const PieceSkin& skin,
+               std::span<const uint32_t> labels, uint32_t label, BrokenSolid& broken);
+/// Who is beside whom, when all are laid.
+void lay_touches(const Solid& solid, BrokenSolid& broken);
 /// Of the next piece that has none.
 void lay_hulls(std::span<const SolidHull> hulls, uint32_t piece, BrokenSolid& broken);
 

@@ -2,6 +2,7 @@
 
 #include "engine/hash.hpp"
 #include "systems/structures/tetrahedra/cook/cover_lattice.hpp"
+#include "systems/structures/tetrahedra/cook/crack_region.hpp"
 #include "systems/structures/tetrahedra/skin.hpp"
 
 namespace cullet {
@@ -253,6 +254,7 @@ CookedSolid read_solid(const SolidRows& rows, Row<CookedSolids> row) {
     });
     read_mesh(rows, row, cooked);
     cooked.faces = number_faces(lattice);
+    cooked.owner_of_empty = owners_of_empty(cooked);
     return cooked;
 }
 

@@ -38,6 +38,7 @@ struct BreakRun {
     double share = 1;          // of the contact's force
     double gate = 0;           // the largest ratio of stress and strength before any crack: below 1 nothing breaks
     double first_crack = 0;    // share of the load at which the first one starts
+    uint64_t work = 0;         // done so far
     uint32_t piece_count = 1, crack_count = 0, solve_count = 0, plane_count = 0;
 
     // By cell.

@@ -9,7 +9,6 @@ constexpr uint32_t kNoPatch = 0xffffffffu;
 constexpr double kBed = 100;                              // of E / a: what a held patch stands on
 constexpr uint32_t kFewestCells = 4;                      // of a piece that is solved
 constexpr double kForcePower = 0.6;                       // of the mass, in Hertz' force
-constexpr uint64_t kElementWork = 2500, kCellWork = 600;  // multiplications
 
 double weight_of(const BreakRun& run, const SurfacePatch& patch) {
     const Vec3d from = patch.centroid - run.blow.point;

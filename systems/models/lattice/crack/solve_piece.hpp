@@ -4,6 +4,8 @@
 
 namespace cullet {
 
+inline constexpr uint64_t kElementWork = 2500, kCellWork = 600;  // multiplications
+
 /// Where the blow does not reach the surface it counts at the nearest place of it.
 void move_to_surface(const BreakableSolid& body, BreakRun& run);
 /// Of the patches of a piece that the blow reaches: 0 means none.

@@ -70,13 +70,49 @@ struct Farthest {
     }
 };
 
-class Halver {
- public:
-    Halver(ScratchMemory& scratch, std::span<const Vec3d> places, std::span<const Triangle> triangles,
-           const HalvingSettings& settings)
-        : scratch_(scratch), places_(places), triangles_(triangles), settings_(settings) {}
+}  // namespace
 
-    List<SolidHull> run() {
+class ConvexHalving::Halver {
+ public:
+    Halver(std::span<const Vec3d> places, std::span<const Triangle> triangles, const HalvingSettings& settings)
+        : triangles_(triangles.begin(), triangles.end()), settings_(settings) {
+        // About the middle of its box, so that far from the origin nothing is lost.
+        Vec3d low = places[triangles[0][0]], high = low;
+        for (const Triangle& t : triangles)
+            for (const uint32_t v : t) {
+                const Vec3d p = places[v];
+                low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+                high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+            }
+        centre_ = 0.5 * (low + high);
+        places_.reserve(places.size());
+        for (const Vec3d& p : places) places_.push_back(p - centre_);
+    }
+
+    bool advance(ScratchMemory& scratch) {
+        scratch_ = &scratch;
+        if (!has_begun_) {
+            begin();
+            has_begun_ = true;
+        } else if (!waiting_.empty()) {
+            Part part = std::move(waiting_.back());
+            waiting_.pop_back();
+            halve(std::move(part));
+        }
+        return waiting_.empty();
+    }
+    size_t next_rows() const {
+        if (!has_begun_) return triangles_.size();
+        return waiting_.empty() ? 0 : waiting_.back().surface.size();
+    }
+    List<SolidHull> take() {
+        for (SolidHull& piece : pieces_)
+            for (Vec3& p : piece.points) p = (Vec3d(p) + centre_).to_float();
+        return std::move(pieces_);
+    }
+
+ private:
+    void begin() {
         Part whole;
         // Points that no triangle names are none of the solid's.
         List<uint32_t> number(places_.size(), kNone);
@@ -93,11 +129,9 @@ class Halver {
         Farthest farthest;
         for (const Vec3d& p : whole.places) farthest.add(p.to_float());
         whole.hull = wrap(farthest);
-        halve(std::move(whole));
-        return std::move(pieces_);
+        waiting_.push_back(std::move(whole));
     }
 
- private:
     void measure(Part& part) {
         part.sums = {};
         for (const Triangle& t : part.surface) {
@@ -121,7 +155,7 @@ class Halver {
         SolidHull piece;
         if (points.empty()) return piece;
         ExtremePoints chosen;
-        choose_extremes(scratch_, points, kMostHullPoints, kEnough * length(high - low), chosen);
+        choose_extremes(*scratch_, points, kMostHullPoints, kEnough * length(high - low), chosen);
         for (uint32_t i = 0; i < chosen.count; ++i) piece.points.push_back(points[chosen.index[i]]);
         for (uint32_t f = 0; f < chosen.face_count; ++f) {
             const auto& face = chosen.face[f];
@@ -157,9 +191,8 @@ class Halver {
             sides[s].hull = std::move(best.hull[s]);
             measure(sides[s]);
         }
-        part = {};  // its memory, before the sides ask for more
-        halve(std::move(sides[0]));
-        halve(std::move(sides[1]));
+        waiting_.push_back(std::move(sides[1]));
+        waiting_.push_back(std::move(sides[0]));
     }
 
     struct Choice {
@@ -352,33 +385,40 @@ class Halver {
         }
     }
 
-    ScratchMemory& scratch_;
-    std::span<const Vec3d> places_;
-    std::span<const Triangle> triangles_;
+    ScratchMemory* scratch_ = nullptr;
+    List<Vec3d> places_;
+    List<Triangle> triangles_;
     HalvingSettings settings_;
+    Vec3d centre_;
+    bool has_begun_ = false;
     double whole_volume_ = 0;
+    List<Part> waiting_;  // the last is next
     List<SolidHull> pieces_;
 };
 
-}  // namespace
+ConvexHalving::ConvexHalving(std::span<const Vec3d> places, std::span<const Triangle> triangles,
+                             const HalvingSettings& settings)
+    : halver_(1) {
+    halver_[0].emplace(places, triangles, settings);
+}
+ConvexHalving::~ConvexHalving() = default;
+
+bool ConvexHalving::advance(ScratchMemory& scratch) {
+    return halver_[0]->advance(scratch);
+}
+size_t ConvexHalving::next_rows() const {
+    return halver_[0]->next_rows();
+}
+List<SolidHull> ConvexHalving::take() {
+    return halver_[0]->take();
+}
 
 List<SolidHull> convex_pieces(ScratchMemory& scratch, std::span<const Vec3d> places,
                               std::span<const Triangle> triangles, const HalvingSettings& settings) {
-    // About the middle of its box, so that far from the origin nothing is lost.
-    Vec3d low = places[triangles[0][0]], high = low;
-    for (const Triangle& t : triangles)
-        for (const uint32_t v : t) {
-            const Vec3d p = places[v];
-            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-        }
-    const Vec3d centre = 0.5 * (low + high);
-    List<Vec3d> shifted;
-    for (const Vec3d& p : places) shifted.push_back(p - centre);
-    List<SolidHull> pieces = Halver(scratch, shifted, triangles, settings).run();
-    for (SolidHull& piece : pieces)
-        for (Vec3& p : piece.points) p = (Vec3d(p) + centre).to_float();
-    return pieces;
+    ConvexHalving halving(places, triangles, settings);
+    while (!halving.advance(scratch)) {
+    }
+    return halving.take();
 }
 
 }  // namespace cullet

@@ -1,5 +1,6 @@
 // A closed mesh as convex pieces for the rigid world: its surface halved by planes (solid cooking note, section 8).
 #pragma once
+#include <optional>
 #include <span>
 
 #include "engine/math.hpp"
@@ -25,5 +26,25 @@ struct SolidHull {
 /// those with cavities will do.
 List<SolidHull> convex_pieces(ScratchMemory& scratch, std::span<const Vec3d> places,
                               std::span<const Triangle> triangles, const HalvingSettings& settings = {});
+
+/// The same, one halving after the other.
+class ConvexHalving {
+ public:
+    ConvexHalving(std::span<const Vec3d> places, std::span<const Triangle> triangles,
+                  const HalvingSettings& settings = {});
+    ~ConvexHalving();
+    ConvexHalving(const ConvexHalving&) = delete;
+    ConvexHalving& operator=(const ConvexHalving&) = delete;
+
+    /// True: all hulls are there.
+    bool advance(ScratchMemory& scratch);
+    /// Triangles that the next step looks at.
+    size_t next_rows() const;
+    List<SolidHull> take();
+
+ private:
+    class Halver;
+    List<std::optional<Halver>> halver_;  // one: it stands where lists stand
+};
 
 }  // namespace cullet

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "systems/structures/tetrahedra/cook/cover_lattice.hpp"
+#include "systems/structures/tetrahedra/cook/crack_region.hpp"
 #include "systems/structures/tetrahedra/cook/merge_cells.hpp"
 
 namespace cullet {
@@ -88,6 +89,7 @@ Result<CookedSolid> cook_solid(const Mesh& given, const SolidSettings& settings)
         cooked.raw.push_back(
             {part.tetrahedron, merged[c], raw.middles[part.tetrahedron] + (1 / volume) * part.sums.first});
     }
+    cooked.owner_of_empty = owners_of_empty(cooked);
     cooked.windings = std::move(cut->windings);
     cooked.tetrahedron_of = std::move(cut->tetrahedron_of);
     return cooked;

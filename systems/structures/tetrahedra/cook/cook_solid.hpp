@@ -28,6 +28,8 @@ struct CookedSolid {
     LatticeFaces faces;
     Windings windings;              // of the lattice's points
     std::vector<RawCell> raw;       // by tetrahedron
+    /// By tetrahedron that held nothing: the part whose piece has what comes into it when cracks move its corners.
+    std::vector<uint32_t> owner_of_empty;
     List<uint32_t> tetrahedron_of;  // where each vertex of the mesh is
     std::string notes;              // for a person: what was closed; or nothing
 };

@@ -1,10 +1,9 @@
-#include "systems/structures/tetrahedra/cook/cut.hpp"
+#include "systems/structures/tetrahedra/cook/mesh_cutter.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/table.hpp"
-#include "systems/structures/tetrahedra/cook/cut_work.hpp"
 
 namespace cullet {
 namespace {
@@ -92,36 +91,82 @@ void find_places(const CutRequest& request, const GridPoints& points, Cut& cut) 
     }
 }
 
-Result<Cut> cut_mesh(const CutRequest& request) {
-    const ClosedMesh& mesh = request.mesh;
-    GridPoints points(mesh.positions,
-                      request.points.empty() ? std::span<const Vec3d>(request.lattice.points) : request.points,
-                      0.5 * (mesh.low + mesh.high));
-    List<uint8_t> is_known = known_points(request);
-    Cut cut;
-    for (;; ++cut.restarts) {
-        CutTriangles of_triangles = cut_triangles(request, points);
-        Undecided& undecided = of_triangles.undecided;
-        if (!undecided.is_empty()) {
-            if (cut.restarts == kMostRestarts)
-                return Error{"triangle " + std::to_string(undecided.triangle) +
-                             " stays in a plane of the lattice after " + std::to_string(kMostRestarts) +
-                             " tries to move it out; remove it"};
-            shift(mesh, undecided, cut.restarts + 1, points, is_known);
-            continue;
-        }
-        if (of_triangles.uncovered != kNone)
-            return Error{"triangle " + std::to_string(of_triangles.uncovered) + " reaches out of the lattice"};
-        cut.polygons = std::move(of_triangles.polygons);
-        cut.keys = std::move(of_triangles.keys);
-        cut.piercings = std::move(of_triangles.piercings);
-        cut.tetrahedron_of = std::move(of_triangles.tetrahedron_of);
-        sort_piercings(request, points, cut);
-        if (!find_windings(request, is_known, cut)) return Error{"faces are wanted that no known point is joined to"};
-        find_loops(request, of_triangles.segments, cut);
-        find_places(request, points, cut);
-        return cut;
+MeshCutter::MeshCutter(const CutRequest& request)
+    : request_(request),
+      points_(request.mesh.positions,
+              request.points.empty() ? std::span<const Vec3d>(request.lattice.points) : request.points,
+              0.5 * (request.mesh.low + request.mesh.high)),
+      is_known_(known_points(request)),
+      count_(request.triangles.empty() ? request.mesh.triangles.size() : request.triangles.size()) {
+    begin();
+}
+
+void MeshCutter::begin() {
+    next_ = 0;
+    of_triangles_ = {};
+    of_triangles_.tetrahedron_of.assign(request_.mesh.positions.size(), kNone);
+    cutter_.emplace(request_, points_, of_triangles_);
+}
+
+bool MeshCutter::advance(size_t polygons) {
+    if (is_joining()) {
+        polygons_made_ = of_triangles_.polygons.size();
+        join();
+        return true;
     }
+    const bool are_all = request_.triangles.empty();
+    size_t triangles = 0;
+    const size_t before = of_triangles_.polygons.size();
+    while (of_triangles_.polygons.size() - before < polygons && triangles < polygons && !is_joining()) {
+        if (cutter_->is_done())
+            cutter_->begin(are_all ? static_cast<uint32_t>(next_) : request_.triangles[next_]), ++next_, ++triangles;
+        else
+            cutter_->go_on();
+    }
+    polygons_made_ = of_triangles_.polygons.size() - before;
+    if (!is_joining()) return false;
+    Undecided& undecided = of_triangles_.undecided;
+    if (!undecided.is_empty()) {
+        if (cut_.restarts == kMostRestarts) {
+            error_ = "triangle " + std::to_string(undecided.triangle) + " stays in a plane of the lattice after " +
+                     std::to_string(kMostRestarts) + " tries to move it out; remove it";
+            return true;
+        }
+        ++cut_.restarts;
+        shift(request_.mesh, undecided, cut_.restarts, points_, is_known_);
+        begin();
+        return false;
+    }
+    if (of_triangles_.uncovered == kNone) return false;
+    error_ = "triangle " + std::to_string(of_triangles_.uncovered) + " reaches out of the lattice";
+    return true;
+}
+
+void MeshCutter::join() {
+    cut_.polygons = std::move(of_triangles_.polygons);
+    cut_.keys = std::move(of_triangles_.keys);
+    cut_.piercings = std::move(of_triangles_.piercings);
+    cut_.tetrahedron_of = std::move(of_triangles_.tetrahedron_of);
+    sort_piercings(request_, points_, cut_);
+    if (!find_windings(request_, is_known_, cut_))
+        error_ = "faces are wanted that no known point is joined to";
+    else if (request_.known && !are_consistent(request_, cut_))
+        error_ = "what was known of a point is not so on this grid";
+    if (!error_.empty()) return;
+    find_loops(request_, of_triangles_.segments, cut_);
+    find_places(request_, points_, cut_);
+}
+
+Result<Cut> MeshCutter::take() {
+    if (!error_.empty()) return Error{error_};
+    return std::move(cut_);
+}
+
+Result<Cut> cut_mesh(const CutRequest& request) {
+    MeshCutter cutter(request);
+    while (!cutter.advance(~size_t{0})) {
+    }
+    return cutter.take();
 }
 
 }  // namespace cullet

@@ -21,6 +21,7 @@ struct Undecided {
     bool is_empty() const { return mesh_points.empty() && lattice_points.empty() && flat_triangles.empty(); }
 };
 
+/// 4.3: polygons, segments and piercings of the triangles that are cut already.
 struct CutTriangles {
     List<CutPolygon> polygons;
     List<CutKey> keys;
@@ -30,9 +31,6 @@ struct CutTriangles {
     Undecided undecided;
     uint32_t uncovered = 0xffffffffu;  // a triangle that leaves the lattice
 };
-
-/// 4.3: polygons, segments and piercings of every triangle asked for.
-CutTriangles cut_triangles(const CutRequest& request, const GridPoints& points);
 
 /// Sorts them by edge, then from the lower end on.
 void sort_piercings(const CutRequest& request, const GridPoints& points, Cut& cut);

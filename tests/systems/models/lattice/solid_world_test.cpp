@@ -206,6 +206,29 @@ TEST(SolidWorld, FramesDoNotAllocate) {
     EXPECT_GE(solids(world), 4u);
 }
 
+TEST(SolidWorld, WhatIsWholeBreaksInTheFrameOfTheTouchOrIsHeldAndNoStepIsLong) {
+    World world = two_rings(settings_on(1));
+    uint64_t most_owed = 0;
+    for (int frame = 0; frame < 60; ++frame) {
+        world.step();
+        const State& state = state_of(world);
+        for (uint32_t t = 0; t < state.tasks.size(); ++t) {
+            most_owed = std::max(most_owed, state.tasks.units_owed[t]);
+            const Row<Tasks> task(t);
+            const bool is_open = static_cast<TaskState>(state.tasks.state[t]) == TaskState::Running &&
+                                 !is_ahead(state.tasks, t) && state.structures.generation[state.tasks.source[t]] == 0;
+            if (is_open) {
+                EXPECT_FALSE(state.tasks.is_late[task]) << frame;
+            }
+        }
+    }
+    // Of a frame's 8 million; all of the skin at once took more than these.
+    EXPECT_LE(most_owed, 1'250'000u);
+    const DamageCounts& counts = world.contents().data.counts;
+    EXPECT_GE(counts.broke, 2u);
+    EXPECT_EQ(counts.first_breaks, 2u);
+}
+
 TEST(SolidWorld, WhatIsNoSolidOrDoesNotBreakIsRefusedWithASentence) {
     Mesh mesh = test::torus_mesh(0.2, 0.06, 24, 12);
     mesh.name = "ring";

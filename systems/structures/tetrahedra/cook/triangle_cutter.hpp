@@ -1,14 +1,15 @@
+// Cuts triangles by the tetrahedra of a lattice, one after the other (solid cooking note, 4.3).
+#pragma once
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
 #include "engine/assert.hpp"
 #include "engine/table.hpp"
 #include "systems/structures/tetrahedra/cook/cut_work.hpp"
 
 namespace cullet {
-namespace {
-
-constexpr uint32_t kMostSteps = 1000;  // of a walk, before all tetrahedra are asked
 
 /// One triangle after the other. What is asked of a face, an edge or a point for a triangle is kept until the next one:
 /// most are asked twice or more.
@@ -25,10 +26,12 @@ class TriangleCutter {
           of_point_(points.lattice.size()),
           seen_(lattice_.of.size(), 0) {}
 
-    void cut(uint32_t triangle) {
+    /// The one before it is done.
+    void begin(uint32_t triangle) {
         now_ = triangle + 1;
         triangle_ = triangle;
         is_undecided_ = false;
+        stack_.clear();
         for (uint32_t i = 0; i < 3; ++i) corner_[i] = points_.mesh[mesh_.triangles[triangle][i]];
         if (is_flat()) {
             out_.undecided.flat_triangles.push_back(triangle);
@@ -39,16 +42,19 @@ class TriangleCutter {
             if (!is_undecided_) out_.uncovered = triangle;
             return;
         }
-        stack_.assign(1, start);
+        stack_.push_back(start);
         seen_[start] = now_;
-        while (!stack_.empty() && !is_undecided_) {
-            const uint32_t tetrahedron = stack_.back();
-            stack_.pop_back();
-            cut_in(tetrahedron);
-        }
+    }
+    bool is_done() const { return stack_.empty() || is_undecided_; }
+    /// In one tetrahedron more.
+    void go_on() {
+        const uint32_t tetrahedron = stack_.back();
+        stack_.pop_back();
+        cut_in(tetrahedron);
     }
 
  private:
+    static constexpr uint32_t kMostSteps = 1000;  // of a walk, before all tetrahedra are asked
     struct OfFace {
         uint32_t asked = 0;
         int8_t side[3];   // of the corners: 1 outside of the face's first tetrahedron
@@ -288,17 +294,5 @@ class TriangleCutter {
     List<Placed> by_place_;  // tetrahedra by the middle of what they span along x
     double widest_ = 0;      // half of the most that one spans
 };
-
-}  // namespace
-
-CutTriangles cut_triangles(const CutRequest& request, const GridPoints& points) {
-    CutTriangles out;
-    out.tetrahedron_of.assign(request.mesh.positions.size(), kNone);
-    TriangleCutter cutter(request, points, out);
-    if (request.triangles.empty())
-        for (uint32_t t = 0; t < request.mesh.triangles.size(); ++t) cutter.cut(t);
-    for (const uint32_t t : request.triangles) cutter.cut(t);
-    return out;
-}
 
 }  // namespace cullet
