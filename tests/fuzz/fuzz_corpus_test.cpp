@@ -13,10 +13,10 @@
 namespace cullet::fuzz {
 namespace {
 
-/// Of each format: 4, in the long run 20, or as many as CULLET_FUZZ_SECONDS says.
+/// Of each format: 2, in the long run 20, or as many as CULLET_FUZZ_SECONDS says.
 double seconds_to_look() {
     const char* text = std::getenv("CULLET_FUZZ_SECONDS");
-    return text ? std::atof(text) : test::few_or_all(4.0, 20.0);
+    return text ? std::atof(text) : test::few_or_all(2.0, 20.0);
 }
 
 /// A line of a corpus: the input in hexadecimal; what a finding was called may follow it.

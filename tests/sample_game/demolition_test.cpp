@@ -9,7 +9,7 @@ namespace cullet {
 namespace {
 
 constexpr uint32_t kAllFrames = 1200;
-const uint32_t kFrames = test::few_or_all(200u, kAllFrames);
+const uint32_t kFrames = test::few_or_all(120u, kAllFrames);
 
 Report play_on(uint32_t threads) {
     RunOptions options;

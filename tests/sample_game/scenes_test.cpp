@@ -32,19 +32,20 @@ uint32_t frames_to_play(uint32_t if_not_said) {
     const int wanted = text ? std::atoi(text) : 0;
     return wanted > 0 ? static_cast<uint32_t>(wanted) : if_not_said;
 }
-bool is_pile(const Scene& scene) {
-    return scene.name == "pile";
+/// A second of these costs as much as ten of another: the pile is many bodies, a car's rows and drawing are large.
+bool is_large(const Scene& scene) {
+    return scene.name == "pile" || scene.name == "car";
 }
 /// Those that are compared hash by hash: everything that breaks by a blow has broken by then, of pile a dozen vases.
 uint32_t hashed_frames_of(const Scene& scene) {
-    return frames_to_play(is_pile(scene) ? few_or_all(30u, 120u) : few_or_all(60u, 120u));
+    return frames_to_play(is_large(scene) ? few_or_all(30u, 120u) : few_or_all(60u, 120u));
 }
 /// Those of the play that is looked at. What breaks lies still at the end of 240, but for the pile and the street,
 /// which go on; what comes later in the pile lies on what is there. The vase still flies apart before its camera in
 /// 120.
 uint32_t frames_of(const Scene& scene) {
     const uint32_t few = scene.name == "vase" ? 240 : 120;
-    return frames_to_play(is_pile(scene) ? few_or_all(40u, 120u) : few_or_all(few, 240u));
+    return frames_to_play(is_large(scene) ? few_or_all(40u, 120u) : few_or_all(few, 240u));
 }
 
 /// A scene's plan, cooked once for all tests of it.

@@ -11,6 +11,7 @@
 #include "systems/drawn/query_index.hpp"
 #include "systems/world_contents.hpp"
 #include "tests/support/draw.hpp"
+#include "tests/support/effort.hpp"
 #include "tests/support/play_script.hpp"
 
 namespace cullet {
@@ -19,7 +20,7 @@ namespace {
 using test::Draw;
 using test::format;
 
-constexpr uint32_t kCases = 16;
+const uint32_t kCases = test::few_or_all(8u, 16u);
 uint32_t cases() {
     return test::cases_of(std::getenv("CULLET_CRUSHING_CASES"), kCases);
 }
