@@ -83,7 +83,33 @@ Momenta momenta_of(const World& world) {
     return sum;
 }
 
+/// The largest share of edges out of limits after one crash, of eight directions and three speeds.
+double worst_of_one(const Car& car, StrikerShape shape, double mass) {
+    double worst = 0;
+    for (int side = 0; side < 8; ++side)
+        for (const double speed : {5.0, 10.0, 15.0}) {
+            MetalBench bench = bench_of(car);
+            Vec3d push;
+            sine_cosine(2 * kPi * side / 8, push.z, push.x);
+            bench.hit(first_touch(bench, push, shape, 0.15, middle_of(bench) - 10.0 * push),
+                      0.5 * mass * speed * speed);
+            worst = std::max(worst, share_out(bench));
+        }
+    return worst;
+}
+
 }  // namespace
+
+std::vector<Verdict> metal_one_crash() {
+    const Car car = cars().front();
+    const auto verdict = [&](const char* into, StrikerShape shape, double mass) {
+        return Verdict{
+            fmt::format("{}, {} at 5, 10, 15 m/s from eight sides: edges out of limits, worst", car.name, into),
+            worst_of_one(car, shape, mass), 0, car.out_of_one};
+    };
+    return {verdict("a wall", StrikerShape::Plane, kCarMass), verdict("a pole", StrikerShape::Cylinder, kCarMass),
+            verdict("a ball of 100 kg", StrikerShape::Sphere, 100)};
+}
 
 std::vector<Verdict> metal_fifty_crashes() {
     std::vector<Verdict> verdicts;

@@ -19,6 +19,7 @@ std::span<const TruthCase> metal_truth_cases() {
                                        {7, "clamped disc under a point load", clamped_disc},
                                        {8, "strain limit", metal_strain_limit},
                                        {9, "fifty hits on a panel", metal_fifty_hits},
+                                       {9, "one crash of a car", metal_one_crash},
                                        {9, "fifty hits on a car", metal_fifty_crashes},
                                        {10, "momentum", metal_momentum},
                                        {11, "a car at a wall and a pole", metal_car_at_a_wall},

@@ -16,6 +16,7 @@ std::vector<Verdict> metal_depth();
 std::vector<Verdict> metal_obstacle();
 std::vector<Verdict> metal_fifty_hits();
 // truth_crash.cpp: no figures without the car of the test data
+std::vector<Verdict> metal_one_crash();
 std::vector<Verdict> metal_fifty_crashes();
 std::vector<Verdict> metal_momentum();
 std::vector<Verdict> metal_car_at_a_wall();

@@ -83,6 +83,11 @@ void carry_creases(const MetalView& metal, double contact, bool folds) {
     crease_cells(metal, contact);
 }
 
+// Six rounds leave what folds and triangles that were turned back have drawn out. Nothing as published is mended.
+bool mends(const MetalView& metal) {
+    return metal.shells().published[metal.row] == 0;
+}
+
 // J of the blow that a sheet which is about to tear does not take.
 double left_at_tear(const MetalView& metal, const Striker& striker, const SheetPlace& place, double energy) {
     SheetMetal sheet = sheet_metal(metal.shell);
@@ -107,7 +112,9 @@ Dent dent_sheet(const MetalView& metal, const Striker& striker, const SheetPlace
     }
     carry_creases(metal, plan.contact, false);
     if (!is_published(metal, kPublishedShape)) clear_striker(metal, striker, dent.depth);
-    limit_stretch(metal, sheet_metal(metal.shell).break_strain, striker, dent.depth);
+    const double most_stretch = sheet_metal(metal.shell).break_strain;
+    limit_stretch(metal, most_stretch, striker, dent.depth);
+    if (mends(metal)) mend_edges(metal, most_stretch, striker, dent.depth);
     return dent;
 }
 
@@ -124,9 +131,11 @@ Dent crush_body(const MetalView& metal, const Striker& striker, double energy) {
     }
     carry_creases(metal, plan.depth, true);
     if (!is_published(metal, kPublishedShape)) clear_striker(metal, striker, plan.depth);
-    limit_stretch(metal, sheet_metal(metal.shell).break_strain, striker, plan.depth);
+    const double most_stretch = sheet_metal(metal.shell).break_strain;
+    limit_stretch(metal, most_stretch, striker, plan.depth);
     if (!is_published(metal, kPublishedSprings)) turn_back(metal);
     if (!is_published(metal, kPublishedShape)) clear_striker(metal, striker, plan.depth);
+    if (mends(metal)) mend_edges(metal, most_stretch, striker, plan.depth);
     return dent;
 }
 

@@ -7,8 +7,12 @@
 namespace cullet {
 namespace {
 
-constexpr int kRounds = 6, kMoreRounds = 18, kPullingRounds = 10, kTurnPasses = 3;
-constexpr double kMovedShare = 0.1;               // what the impact moved yields so much less to pulling edges
+constexpr int kRounds = 6, kPullingRounds = 10, kTurnPasses = 3;
+constexpr int kMends = 4, kMendRounds = 6;
+constexpr int kMendRings = 3;            // around an edge out of limits
+constexpr float kMostShortening = 0.3f;  // from there on an edge is out of limits: of the metals the least
+constexpr float kMended = 0.75f;         // of the original length: of what is mended, so that it does not crinkle
+constexpr double kMovedShare = 0.1;      // what the impact moved yields so much less to pulling edges
 constexpr float kShortest = 0.92f, kPush = 0.7f;  // of the original length; how much of what is missing is asked for
 constexpr double kEarly = 0.88;   // of the longest: what only just keeps to its limit is over it after the next dent
 constexpr float kStep = 2.4f;     // over the number of springs
@@ -22,8 +26,8 @@ bool moves(const MetalView& metal, uint32_t v) {
 struct Allowed {
     float longest, shortest;  // m
 
-    Allowed(float original, float most_stretch)
-        : longest((1 + most_stretch) * original), shortest(kShortest * original) {}
+    Allowed(float original, float most_stretch, float least)
+        : longest((1 + most_stretch) * original), shortest(least * original) {}
     bool hold(float square) const { return square <= longest * longest && square >= shortest * shortest; }
     /// How much too long (above 0) or too short (below), m.
     float excess(float length) const {
@@ -48,38 +52,61 @@ bool is_turned(const MetalView& metal, uint32_t element) {
     return both < 0 && dot(normalised(before), normalised(after)) < kTurned;
 }
 
-bool has_long_edge(const MetalView& metal, float most_stretch) {
-    const MetalVertices& vertices = metal.vertices();
-    const MetalSprings& springs = metal.springs();
-    bool is_any = false;
-    for (uint32_t v = 0; v < metal.vertex_count() && !is_any; ++v) {
-        if (!moves(metal, v)) continue;
-        metal.for_each_spring(v, [&](uint32_t other, uint32_t spring) {
-            const Vec3 way = vertices.place[metal.vertex(other)] - vertices.place[metal.vertex(v)];
-            const float longest = (1 + most_stretch) * springs.length[spring];
-            is_any = is_any || (!springs.is_tie[spring] && dot(way, way) > longest * longest);
-        });
-    }
-    return is_any;
-}
-
-}  // namespace
-
-// Both ends of a spring take an equal share; one that stays where it is leaves all to the other. Ties between sheets
-// are no edges.
-void relax_once(const MetalView& metal, float most_stretch) {
+/// Fills MetalVertices.queued with what is to move so that edges come back to their limits: ends of such edges, and
+/// rings around them. How many there are.
+uint32_t collect_overdrawn(const MetalView& metal, float most_stretch) {
     MetalVertices& vertices = metal.vertices();
     const MetalSprings& springs = metal.springs();
+    const uint32_t first = metal.vertex(0);
+    uint32_t count = 0;
     for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
-        const uint32_t row = metal.vertex(v);
+        vertices.is_queued[first + v] = 0;
         if (!moves(metal, v)) continue;
+        bool is_out = false;
+        metal.for_each_spring(v, [&](uint32_t other, uint32_t spring) {
+            if (springs.is_tie[spring]) return;
+            const Vec3 way = vertices.place[first + other] - vertices.place[first + v];
+            const float longest = (1 + most_stretch) * springs.length[spring],
+                        shortest = (1 - kMostShortening) * springs.length[spring];
+            is_out = is_out || dot(way, way) > longest * longest || dot(way, way) < shortest * shortest;
+        });
+        if (!is_out) continue;
+        vertices.is_queued[first + v] = 1;
+        vertices.queued[first + count++] = v;
+    }
+    uint32_t begin = 0;
+    for (int ring = 0; ring < kMendRings; ++ring)
+        for (const uint32_t end = count; begin < end; ++begin)
+            metal.for_each_spring(vertices.queued[first + begin], [&](uint32_t other, uint32_t spring) {
+                if (springs.is_tie[spring] || vertices.is_queued[first + other] || !moves(metal, other)) return;
+                vertices.is_queued[first + other] = 1;
+                vertices.queued[first + count++] = other;
+            });
+    return count;
+}
+
+/// All vertices that move.
+template <class Visit>
+void for_each_moving(const MetalView& metal, Visit visit) {
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v)
+        if (moves(metal, v)) visit(v);
+}
+
+// Both ends of a spring take an equal share; one that stays where it is leaves all to the other. Ties between sheets
+// are no edges. for_each(visit): the vertices that are moved.
+template <class ForEach>
+void relax(const MetalView& metal, float most_stretch, float least, ForEach for_each) {
+    MetalVertices& vertices = metal.vertices();
+    const MetalSprings& springs = metal.springs();
+    for_each([&](uint32_t v) {
+        const uint32_t row = metal.vertex(v);
         Vec3 sum;
         uint32_t valence = 0;
         metal.for_each_spring(v, [&](uint32_t other, uint32_t spring) {
             if (springs.is_tie[spring]) return;
             ++valence;
             const Vec3 way = vertices.place[metal.vertex(other)] - vertices.place[row];
-            const Allowed allowed(springs.length[spring], most_stretch);
+            const Allowed allowed(springs.length[spring], most_stretch, least);
             if (allowed.hold(dot(way, way))) return;
             const float now = length(way);
             if (!(now > 1e-9f)) return;
@@ -89,19 +116,33 @@ void relax_once(const MetalView& metal, float most_stretch) {
         // Of few edges it would go past their limits.
         const float step = std::min(1.0f, kStep / static_cast<float>(std::max(valence, 1u)));
         vertices.next.set(row, vertices.place[row] + step * sum);
-    }
-    for (uint32_t v = 0; v < metal.vertex_count(); ++v)
-        if (moves(metal, v)) vertices.place.set(metal.vertex(v), vertices.next[metal.vertex(v)]);
+    });
+    for_each([&](uint32_t v) { vertices.place.set(metal.vertex(v), vertices.next[metal.vertex(v)]); });
 }
 
-void clear_striker(const MetalView& metal, const Striker& striker, double depth) {
+template <class ForEach>
+void clear(const MetalView& metal, const Striker& striker, double depth, ForEach for_each) {
     MetalVertices& vertices = metal.vertices();
-    for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
-        if (!moves(metal, v)) continue;
+    for_each([&](uint32_t v) {
         const uint32_t row = metal.vertex(v);
         const double covered = striker.covers(Vec3d(vertices.place[row]), depth);
         if (covered > 0) vertices.place.set(row, (Vec3d(vertices.place[row]) + covered * striker.push).to_float());
-    }
+    });
+}
+
+/// What edges are let become at most, so that they are within their limits after the next dent as well.
+float early(double most_stretch) {
+    return static_cast<float>(kEarly * (1 + most_stretch) - 1);
+}
+
+}  // namespace
+
+void relax_once(const MetalView& metal, float most_stretch) {
+    relax(metal, most_stretch, kShortest, [&](auto visit) { for_each_moving(metal, visit); });
+}
+
+void clear_striker(const MetalView& metal, const Striker& striker, double depth) {
+    clear(metal, striker, depth, [&](auto visit) { for_each_moving(metal, visit); });
 }
 
 void limit_stretch(const MetalView& metal, double most_stretch, const Striker& striker, double depth) {
@@ -114,15 +155,23 @@ void limit_stretch(const MetalView& metal, double most_stretch, const Striker& s
         if (published & kPublishedLimit)
             cut_long_edges(metal, most_stretch);
         else
-            relax_once(metal, static_cast<float>(kEarly * (1 + most_stretch) - 1));
+            relax_once(metal, early(most_stretch));
         if (round % 2 == 1 && is_shaped) clear_striker(metal, striker, depth);
     }
-    // A ball goes in deeper than it is wide, and over dents that are there: six rounds leave what it drew out.
-    if (published != 0 || striker.shape != StrikerShape::Sphere) return;
-    for (int round = 0; round < kMoreRounds; ++round) {
-        if (round % 2 == 0 && !has_long_edge(metal, static_cast<float>(most_stretch))) return;
-        relax_once(metal, static_cast<float>(kEarly * (1 + most_stretch) - 1));
-        if (round % 2 == 1) clear_striker(metal, striker, depth);
+}
+
+void mend_edges(const MetalView& metal, double most_stretch, const Striker& striker, double depth) {
+    const MetalVertices& vertices = metal.vertices();
+    for (int mend = 0; mend < kMends; ++mend) {
+        const uint32_t count = collect_overdrawn(metal, static_cast<float>(most_stretch));
+        if (count == 0) return;
+        const auto for_each = [&](auto visit) {
+            for (uint32_t k = 0; k < count; ++k) visit(vertices.queued[metal.vertex(k)]);
+        };
+        for (int round = 0; round < kMendRounds; ++round) {
+            relax(metal, early(most_stretch), kMended, for_each);
+            if (round % 2 == 1) clear(metal, striker, depth, for_each);
+        }
     }
 }
 

@@ -10,10 +10,11 @@ namespace cullet {
 void clear_striker(const MetalView& metal, const Striker& striker, double depth);
 /// One round: edges longer than 1 + `most_stretch` times their original length pull, shorter than 0.92 of it push.
 void relax_once(const MetalView& metal, float most_stretch);
-/// Six of them, of a ball up to eighteen more while an edge is too long; or what the published method has in their
-/// place: ten rounds of all edges, and another limit. Each second round clears the striker again, where the dent has
-/// its shape.
+/// Six of them; or what the published method has in their place: ten rounds of all edges, and another limit. Each
+/// second round clears the striker again, where the dent has its shape.
 void limit_stretch(const MetalView& metal, double most_stretch, const Striker& striker, double depth);
+/// Where edges are out of their limits after that, rounds for them and what is around them, up to 24.
+void mend_edges(const MetalView& metal, double most_stretch, const Striker& striker, double depth);
 /// Triangles that turned over take their mean displacement; the passes that it took, at most three.
 void turn_back(const MetalView& metal);
 

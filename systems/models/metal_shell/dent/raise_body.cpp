@@ -15,7 +15,8 @@ constexpr double kDragged = 0.5;     // of the depth
 constexpr double kFacing = 0.05;     // cosine: what looks away from the striker is not crushed
 constexpr int kSweeps = 40;          // of cells, and of vertices
 constexpr double kRelaxation = 1.6;
-constexpr float kSteepest = 0.5f;  // of the field, along the sheet
+constexpr float kStretchOfField = 0.1f, kShorteningOfField = 0.38f;  // of edges, by the field alone
+constexpr float kTieFall = 0.5f;                                     // of the field, of the gap between two sheets
 
 // m3 that the striker takes of what faces it.
 double crushed_volume(const MetalView& metal, const Striker& striker, double depth) {
@@ -102,21 +103,36 @@ float blended(const MetalView& metal, uint32_t vertex_row) {
     return sum;
 }
 
-// What is beside a ball that went in deeper than it is wide would stand at its side as a wall, longer than the sheet
-// stretches. It is dragged along, so far that the field falls no more steeply than that.
-void drag_along(const MetalView& metal) {
+// By how much less the other end of an edge may go along the push than this one, so that the edge is neither longer nor
+// shorter than it may be. One that is too long already goes as far as makes it shortest.
+float fall_along(Vec3 edge, Vec3 push, float longest, float shortest) {
+    const float along = dot(edge, push), square = along * along - dot(edge, edge);
+    const float most = std::max(0.0f, along + std::sqrt(std::max(0.0f, square + longest * longest)));
+    const float within = square + shortest * shortest;  // above 0: on its way it becomes too short
+    return along > 0 && within > 0 ? std::min(most, std::max(0.0f, along - std::sqrt(within))) : most;
+}
+
+// What is beside a striker that went in deeper than it is wide would stand at its side as a wall, longer than the sheet
+// stretches; what trails it would stay behind. It is dragged along, so far that no edge asks for more.
+void drag_along(const MetalView& metal, Vec3 push, float most_stretch, float most_shortening) {
     MetalVertices& vertices = metal.vertices();
+    const MetalSprings& springs = metal.springs();
     float top = 0;
     for (uint32_t v = 0; v < metal.vertex_count(); ++v) top = std::max(top, vertices.field[metal.vertex(v)]);
     for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
         const uint32_t row = metal.vertex(v);
-        vertices.way[row] = vertices.field[row] > 0 ? (top - vertices.field[row]) / kSteepest : kNoWay;
+        vertices.way[row] = vertices.field[row] > 0 ? top - vertices.field[row] : kNoWay;
     }
-    spread_ways(metal, top / kSteepest);
+    spread_ways(metal, top, [&](uint32_t v, uint32_t other, uint32_t spring) {
+        if (springs.is_tie[spring]) return kTieFall * springs.length[spring];
+        const Vec3 edge = vertices.start[metal.vertex(other)] - vertices.start[metal.vertex(v)];
+        // What an earlier impact shortened is shortened on, as it folds on.
+        const float whole = springs.length[spring], least = std::min(whole, length(edge));
+        return fall_along(edge, push, (1 + most_stretch) * whole, (1 - most_shortening) * least);
+    });
     for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
         const uint32_t row = metal.vertex(v);
-        if (!metal.is_pinned(v))
-            vertices.field[row] = std::max(vertices.field[row], top - kSteepest * vertices.way[row]);
+        if (!metal.is_pinned(v)) vertices.field[row] = std::max(vertices.field[row], top - vertices.way[row]);
     }
 }
 
@@ -179,7 +195,7 @@ void raise_body(const MetalView& metal, const Striker& striker, double depth, do
             const double now = double{vertices.field[row]};
             vertices.field[row] = std::max(least(row), static_cast<float>(now + kRelaxation * (sum / weight - now)));
         }
-    drag_along(metal);
+    drag_along(metal, striker.push.to_float(), kStretchOfField, kShorteningOfField);
 }
 
 }  // namespace cullet
