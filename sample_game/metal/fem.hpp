@@ -41,8 +41,8 @@ struct FemMeasures {
 FemMeasures compare_with_fem(const MidLine& ours, const FemCurve& curve);
 
 struct FemBlow {
-    double work = 0;             // J
-    double ball_radius = 0.145;  // m; 0: the ball whose contact at this work is as large as the patch
+    double work = 0;         // J
+    double ball_radius = 0;  // m; 0: of the ball whose contact at this work is as large as the patch
     uint32_t columns = 120, rows = 80;
     uint32_t cells = 128;
     uint8_t published = 0;  // PublishedChoice

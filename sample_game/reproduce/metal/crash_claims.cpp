@@ -182,7 +182,8 @@ Result<Claim> metal_fem(Bench& bench) {
     }
     claim.tables.push_back(std::move(table));
     claim.ours =
-        is_any ? "A ball of 0.145 m does the work of the press; met means A at least 0.95, B at least 0.80 and a "
+        is_any ? "A ball whose contact is as large as the patch does the work of the press; met means A at least 0.95, "
+                 "B at least 0.80 and a "
                  "peak of 0.9 to 1.15 from 200 J on. Lighter blows are mostly elastic; ours are too deep there. The "
                  "published way punches a hole, and A alone would pass it as 80 %."
                : "The curves of the FEM are not beside the test data here.";

@@ -15,7 +15,7 @@ constexpr double kSpringback = 1.3;             // fitted to eight runs of a she
 constexpr double kLeastContact = 10;            // thicknesses
 constexpr double kMostOfStriker = 0.95;         // of its radius
 constexpr double kMostOfSupport = 0.6;          // beyond it the blow is too wide for a sheet
-constexpr double kFoot = 0.15;                  // how much the profile's foot is rounded
+constexpr double kFoot = 0.1;                   // how much the profile's foot is rounded
 constexpr double kFadeFrom = 1.4, kFadeTo = 2;  // reaches
 constexpr double kSheetLoss = 0.7;              // of a sheet's restitution
 
