@@ -58,6 +58,10 @@ Result<Row<Structures>> spawn_shell(ShellRows& rows, Row<Structures> source, con
 }
 
 Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning) {
+    // What a crash gives back hangs on the metal: what yields is not springy, whatever it meets.
+    if (!(spawning.settings.contact.restitution >= 0))
+        rows.bodies.restitution[body] =
+            rows.materials.restitution[rows.structures.material[rows.bodies.structure[body]]];
     rows.bodies.is_breakable[body] = spawning.is_breakable;
     if (body < rows.metal_impacts.size()) rows.metal_impacts.clear_rows(body, 1);
     if (!spawning.is_breakable) return ShellRoom{};
