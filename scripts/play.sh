@@ -23,7 +23,7 @@ if [[ ${CULLET_FILMS:-1} != 0 ]]; then
 fi
 build/release/sample_game run show_reel --out "$out" --contact-sheet "${size[@]}" "${films[@]}" "$@"
 # What dents and does not break, and what is solid.
-for scene in panel drum car statue table; do
+for scene in panel drum car shots statue table; do
     build/release/sample_game run $scene --hash off --out "$out/$scene" --contact-sheet --width 640 "${films[@]}"
 done
 
@@ -39,6 +39,7 @@ What there is to see, in $PWD/$out:
   panel/sheet.png  balls of 100 kg dent a clamped steel panel, and one comes to rest in its dent
   drum/sheet.png   an empty steel drum falls on its rim, which folds
   car/sheet.png    car bodies of sheet steel are thrown into a wall, a pole and another car
+  shots/sheet.png  balls go through a sheet of steel and leave holes with petals; one goes into the side of a drum
   statue/sheet.png a ball hits a solid statue of stone on its plinth: head and legs come off, and fall to the floor
   table/sheet.png  a ball falls on a table top of solid glass, which comes down in large pieces
   */film.mp4       each as a film

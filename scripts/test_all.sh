@@ -8,7 +8,7 @@
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
-presets=(release checked clang debug asan tsan) scenes=(vase wall pane drop pile blows castle rubber cloth steel tear demolition panel drum car)
+presets=(release checked clang debug asan tsan) scenes=(vase wall pane drop pile blows castle rubber cloth steel tear demolition panel drum car shots)
 formats=(mesh_file model_file snapshot recording)
 threads=(1 2 3 8) levels=(scalar sse4 avx2 avx512) frames=300 inputs=50000 fragments=1000000 tests=() page=tests/ALL.md failed_only=false
 if [[ ${1:-} == --failed ]]; then
