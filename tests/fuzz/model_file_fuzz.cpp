@@ -18,7 +18,8 @@ std::vector<Bytes> make_seeds() {
     const Model brick = value_of(cook({mesh.positions.data(), mesh.positions.size(), mesh.triangles[0].data(),
                                        mesh.triangles.size(), nullptr, mesh.corner_uvs.data(), mesh.materials.data()},
                                       settings));
-    return {encode_model_file(*glass_globe().contents), encode_model_file(*brick.contents)};
+    return {encode_model_file(*glass_globe().contents), encode_model_file(*brick.contents),
+            encode_model_file(*steel_globe().contents)};
 }
 
 bool read(std::span<const uint8_t> file) {

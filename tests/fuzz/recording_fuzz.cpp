@@ -104,7 +104,7 @@ void move_globes(World& world) {
 
 std::vector<Bytes> make_seeds() {
     return {recorded(value_of(World::create(small_settings())), ask_for_all),
-            recorded(globes_and_ball(),
+            recorded(globes_and_ball(glass_globe()),
                      [](World& world) {
                          for (int frame = 0; frame < 4; ++frame) world.step();
                      }),

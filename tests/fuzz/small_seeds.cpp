@@ -27,16 +27,27 @@ Mesh globe(bool has_corners) {
     return mesh;
 }
 
+namespace {
+
+Model cook_globe(const char* material, float thickness) {
+    const Mesh mesh = globe(false);
+    CookSettings settings;
+    settings.material = material;
+    settings.thickness = thickness;
+    settings.longest_edge = 1;
+    return value_of(cook(
+        {mesh.positions.data(), mesh.positions.size(), mesh.triangles[0].data(), mesh.triangles.size()}, settings));
+}
+
+}  // namespace
+
 const Model& glass_globe() {
-    static const Model model = [] {
-        const Mesh mesh = globe(false);
-        CookSettings settings;
-        settings.material = "glass";
-        settings.thickness = 0.004f;
-        settings.longest_edge = 1;
-        return value_of(cook(
-            {mesh.positions.data(), mesh.positions.size(), mesh.triangles[0].data(), mesh.triangles.size()}, settings));
-    }();
+    static const Model model = cook_globe("glass", 0.004f);
+    return model;
+}
+
+const Model& steel_globe() {
+    static const Model model = cook_globe("steel", 0.001f);
     return model;
 }
 
@@ -90,8 +101,8 @@ Settings small_settings() {
 
 namespace {
 
-void add_globes(World& world) {
-    const ModelId model = value_of(world.add_model(glass_globe()));
+void add_globes(World& world, const Model& of) {
+    const ModelId model = value_of(world.add_model(of));
     SpawnSettings globe;
     globe.pose.position = {0, 0.101f, 0};
     globe.user_data = 7;
@@ -102,12 +113,12 @@ void add_globes(World& world) {
 
 }  // namespace
 
-World globes_and_ball() {
+World globes_and_ball(const Model& of) {
     World world = value_of(World::create(small_settings()));
     const Vec3 corners[] = {{-5, 0, -5}, {-5, 0, 5}, {5, 0, 5}, {5, 0, -5}};
     const uint32_t quad[] = {0, 1, 2, 0, 2, 3};
     (void)value_of(world.add_static({corners, 4, quad, 2}));
-    add_globes(world);
+    add_globes(world, of);
     SphereSettings ball;
     ball.radius = 0.03f;
     ball.mass = 0.3f;
@@ -119,7 +130,7 @@ World globes_and_ball() {
 
 World hosted_globes() {
     World world = value_of(World::create_hosted(small_settings()));
-    add_globes(world);
+    add_globes(world, glass_globe());
     return world;
 }
 

@@ -9,12 +9,14 @@ namespace cullet::fuzz {
 Mesh globe(bool has_corners);
 /// Glass, 4 mm.
 const Model& glass_globe();
+/// Steel, 1 mm: a metal shell.
+const Model& steel_globe();
 Settings small_settings();
 /// Its allocator keeps what is given back for the next world, which the system's takes most of the time to do. Blocks
 /// come from malloc: the address sanitizer sees what is read or written behind a table's last row.
 const Host& frugal_host();
 /// A floor, a globe that lies on it, and another one with a ball on its way to it.
-World globes_and_ball();
+World globes_and_ball(const Model& of);
 /// The same two globes where the host moves the bodies.
 World hosted_globes();
 
