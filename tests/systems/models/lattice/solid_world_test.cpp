@@ -1,14 +1,11 @@
 // Solids in a world: they are cooked, fall, break, and their pieces go on.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-
-#include "cullet/recording.hpp"
 #include "sample_game/allocations.hpp"
 #include "systems/structures/tetrahedra/skin.hpp"
 #include "systems/world_contents.hpp"
 #include "tests/support/closed_view.hpp"
+#include "tests/support/same_bytes.hpp"
 #include "tests/support/simple_meshes.hpp"
 #include "tests/support/small_worlds.hpp"
 
@@ -90,21 +87,6 @@ double mass_of_solids(const World& world) {
     return mass;
 }
 
-std::vector<uint64_t> hashes(World& world, int frames) {
-    std::vector<uint64_t> list;
-    for (int frame = 0; frame < frames; ++frame) {
-        world.step();
-        list.push_back(world.hash());
-    }
-    return list;
-}
-
-std::string file_of(const std::string& name) {
-    const auto folder = std::filesystem::temp_directory_path() / ("cullet_solids." + std::to_string(getpid()));
-    std::filesystem::create_directories(folder);
-    return (folder / name).string();
-}
-
 TEST(SolidWorld, ARingIsCookedDrawnAndWeighedAsItsMesh) {
     const ModelReport& report = ring().report();
     const double volume = 2 * 9.8696044 * 0.2 * 0.06 * 0.06;  // of the smooth torus
@@ -132,41 +114,26 @@ TEST(SolidWorld, WhatFallsAndWhatIsStruckBreaksIntoClosedPiecesOfAllItsMass) {
 
 TEST(SolidWorld, AnyNumberOfThreadsGivesTheSameBytes) {
     World one = two_rings(settings_on(1));
-    const std::vector<uint64_t> wanted = hashes(one, 60);
+    (void)test::hashes_of(one, 60);
     EXPECT_GE(solids(one), 4u);
-    for (const uint32_t threads : {2u, 3u, 8u}) {
-        World other = two_rings(settings_on(threads));
-        EXPECT_EQ(hashes(other, 60), wanted) << threads;
-    }
+    test::expect_same_on_threads([](uint32_t threads) { return two_rings(settings_on(threads)); }, 60);
 }
 
 TEST(SolidWorld, AWorldThatIsLoadedInMidBreakGoesOnWithTheSameBytes) {
     World world = two_rings(settings_on(1, 4'000'000));
-    uint32_t loads = 0;
-    for (int frame = 0; frame < 90; ++frame) {
+    const uint32_t loads = test::expect_loads(world, settings_on(2, 4'000'000), 90, [&](int frame) {
         bool is_open = false;
         for (uint32_t t = 0; t < state_of(world).tasks.size(); ++t)
             is_open = is_open || static_cast<TaskState>(state_of(world).tasks.state[t]) != TaskState::Free;
-        if (is_open || frame % 20 == 0) {
-            const std::vector<uint8_t> bytes = value_of(world.snapshot());
-            World loaded = test::make_world(settings_on(2, 4'000'000));
-            const Result<void> restored = loaded.restore(bytes.data(), bytes.size());
-            ASSERT_TRUE(restored.ok()) << restored.error();
-            ASSERT_EQ(loaded.hash(), world.hash());
-            ++loads;
-            for (int later = 0; later < 3; ++later, ++frame) {
-                world.step(), loaded.step();
-                ASSERT_EQ(loaded.hash(), world.hash()) << frame;
-            }
-        }
-        world.step();
-    }
+        return is_open || frame % 20 == 0;
+    });
     EXPECT_GT(loads, 3u);
     EXPECT_GE(solids(world), 4u);
 }
 
 TEST(SolidWorld, ItsModelFileGivesTheSameWorld) {
-    const std::string path = file_of("ring.cmodel");
+    const test::OwnFolder folder("cullet_solids");
+    const std::string path = folder.file("ring.cmodel");
     ASSERT_TRUE(write_model(ring(), path).ok());
     const Model read = value_of(read_model(path));
     EXPECT_EQ(read.report().mass, ring().report().mass);
@@ -174,28 +141,16 @@ TEST(SolidWorld, ItsModelFileGivesTheSameWorld) {
     for (World* world : {&cooked, &from_file}) test::add_floor(*world);
     spawn(cooked, ring(), {0, 0.5f, 0}, {0, -12, 0});
     spawn(from_file, read, {0, 0.5f, 0}, {0, -12, 0});
-    EXPECT_EQ(hashes(from_file, 30), hashes(cooked, 30));
-    std::filesystem::remove_all(std::filesystem::path(path).parent_path());
+    EXPECT_EQ(test::hashes_of(from_file, 30), test::hashes_of(cooked, 30));
 }
 
 TEST(SolidWorld, ARecordingReplaysOnAnyNumberOfThreads) {
-    const std::string path = file_of("rings.crec");
-    {
-        World world = test::make_world(settings_on(1));
-        ASSERT_TRUE(world.start_recording(path).ok());
+    test::expect_replays(settings_on(1), 40, [](World& world) {
         test::add_floor(world);
         spawn(world, ring(), {0, 0.5f, 0}, {0, -12, 0});
         for (int frame = 0; frame < 40; ++frame) world.step();
         EXPECT_GE(solids(world), 2u);
-        ASSERT_TRUE(world.stop_recording().ok());
-    }
-    ReplaySettings on;
-    on.threads = {1, 2, 3, 8};
-    const ReplayReport report = value_of(replay(path, on));
-    EXPECT_EQ(report.frames, 40u);
-    EXPECT_EQ(report.difference, "");
-    EXPECT_EQ(report.damage, "");
-    std::filesystem::remove_all(std::filesystem::path(path).parent_path());
+    });
 }
 
 TEST(SolidWorld, FramesDoNotAllocate) {

@@ -1,19 +1,14 @@
 // Metal shells in a world: rigid between impacts, dented by them, saved, loaded and replayed.
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
 
 #include "components/body_id.hpp"
-#include "cullet/recording.hpp"
 #include "sample_game/allocations.hpp"
 #include "tests/support/closed_view.hpp"
+#include "tests/support/same_bytes.hpp"
 #include "tests/systems/models/metal_shell/panels.hpp"
 
 namespace cullet {
 namespace {
-
-namespace fs = std::filesystem;
 
 template <class T>
 T value_of(Result<T> result) {
@@ -69,24 +64,6 @@ World crashes(const Settings& settings) {
     return world;
 }
 
-std::vector<uint64_t> hashes(World& world, int frames) {
-    std::vector<uint64_t> list;
-    for (int frame = 0; frame < frames; ++frame) {
-        world.step();
-        list.push_back(world.hash());
-    }
-    return list;
-}
-
-std::string file_of(const std::string& name) {
-    const fs::path folder = fs::temp_directory_path() / ("cullet_metal_world_test." + std::to_string(getpid()));
-    fs::create_directories(folder);
-    return (folder / name).string();
-}
-void remove_files() {
-    fs::remove_all(fs::path(file_of("x")).parent_path());
-}
-
 TEST(MetalWorld, ABallDentsAFramedPanelAndBouncesOff) {
     World world = test::make_world(settings_on(2));
     const BodyId sheet = spawn_panel(world);
@@ -134,63 +111,34 @@ TEST(MetalWorld, WhatTouchesItSoftlyLeavesItBitForBitAsItWas) {
 }
 
 TEST(MetalWorld, AnyNumberOfThreadsGivesTheSameBytes) {
-    World one = crashes(settings_on(1));
-    const std::vector<uint64_t> wanted = hashes(one, 60);
-    for (const uint32_t threads : {2u, 3u, 8u}) {
-        World other = crashes(settings_on(threads));
-        EXPECT_EQ(hashes(other, 60), wanted) << threads;
-    }
+    test::expect_same_on_threads([](uint32_t threads) { return crashes(settings_on(threads)); }, 60);
 }
 
 TEST(MetalWorld, AWorldThatIsLoadedGoesOnWithTheSameBytes) {
     World world = crashes(settings_on(1));
-    for (int frame = 0; frame < 40; ++frame) {
-        if (frame % 8 == 0) {
-            const std::vector<uint8_t> bytes = value_of(world.snapshot());
-            World loaded = test::make_world(settings_on(2));
-            const Result<void> restored = loaded.restore(bytes.data(), bytes.size());
-            ASSERT_TRUE(restored.ok()) << restored.error();
-            EXPECT_EQ(loaded.hash(), world.hash());
-            for (int later = 0; later < 3; ++later, ++frame) {
-                world.step(), loaded.step();
-                ASSERT_EQ(loaded.hash(), world.hash()) << frame;
-            }
-        }
-        world.step();
-    }
+    EXPECT_GE(test::expect_loads(world, settings_on(2), 40, [](int frame) { return frame % 8 == 0; }), 5u);
 }
 
 TEST(MetalWorld, ARecordingReplaysOnAnyNumberOfThreads) {
-    const std::string path = file_of("crash.crec");
-    {
-        World world = test::make_world(settings_on(1));
-        ASSERT_TRUE(world.start_recording(path).ok());
+    test::expect_replays(settings_on(1), 40, [](World& world) {
         test::add_floor(world);
         spawn_panel(world);
         ASSERT_TRUE(world.add_sphere(test::ball_at({0.1f, 1, 0}, 50, 6, 0.1f)).ok());
         spawn(world, box(), {2, 0.2f, 0}, {1, -12, 0}, {3, 0, 4});
         for (int frame = 0; frame < 40; ++frame) world.step();
-        ASSERT_TRUE(world.stop_recording().ok());
-    }
-    ReplaySettings on;
-    on.threads = {1, 2, 3, 8};
-    const ReplayReport report = value_of(replay(path, on));
-    EXPECT_EQ(report.frames, 40u);
-    EXPECT_EQ(report.difference, "");
-    EXPECT_EQ(report.damage, "");
-    remove_files();
+    });
 }
 
 TEST(MetalWorld, AModelFileGivesTheSameWorld) {
-    const std::string path = file_of("box.cmodel");
+    const test::OwnFolder folder("cullet_metal_world_test");
+    const std::string path = folder.file("box.cmodel");
     ASSERT_TRUE(write_model(box(), path).ok());
     const Model read = value_of(read_model(path));
     World cooked = test::make_world(settings_on(1)), from_file = test::make_world(settings_on(1));
     for (World* world : {&cooked, &from_file}) test::add_floor(*world);
     spawn(cooked, box(), {0, 0.2f, 0}, {1, -12, 0}, {3, 0, 4});
     spawn(from_file, read, {0, 0.2f, 0}, {1, -12, 0}, {3, 0, 4});
-    EXPECT_EQ(hashes(from_file, 40), hashes(cooked, 40));
-    remove_files();
+    EXPECT_EQ(test::hashes_of(from_file, 40), test::hashes_of(cooked, 40));
 }
 
 TEST(MetalWorld, FramesDoNotAllocate) {

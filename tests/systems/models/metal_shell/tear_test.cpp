@@ -1,19 +1,14 @@
 // Metal that is stretched too far tears: what is torn, what it keeps, and that it goes on as any other body.
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
 
 #include "components/body_id.hpp"
-#include "cullet/recording.hpp"
 #include "sample_game/allocations.hpp"
 #include "tests/support/closed_view.hpp"
+#include "tests/support/same_bytes.hpp"
 #include "tests/systems/models/metal_shell/panels.hpp"
 
 namespace cullet {
 namespace {
-
-namespace fs = std::filesystem;
 
 template <class T>
 T value_of(Result<T> result) {
@@ -106,14 +101,6 @@ World shots(const Settings& settings) {
     spawn_free(world, box(), {2, 0.5f, 0});
     EXPECT_TRUE(world.add_sphere(test::ball_at({2.13f, 0.66f, 0.3f}, 20, 45, 0.06f)).ok());
     return world;
-}
-std::vector<uint64_t> hashes(World& world, int frames) {
-    std::vector<uint64_t> list;
-    for (int frame = 0; frame < frames; ++frame) {
-        world.step();
-        list.push_back(world.hash());
-    }
-    return list;
 }
 
 TEST(Tear, WhatIsStretchedNoFartherThanItBearsStaysWhole) {
@@ -256,52 +243,23 @@ TEST(Tear, ShotsOnOneSpotStaySane) {
 
 TEST(Tear, AnyNumberOfThreadsGivesTheSameBytes) {
     World one = shots(settings_on(1));
-    const std::vector<uint64_t> wanted = hashes(one, 40);
+    (void)test::hashes_of(one, 40);
     EXPECT_GE(test::shells_of(one).size(), 3u);
-    for (const uint32_t threads : {2u, 3u, 8u}) {
-        World other = shots(settings_on(threads));
-        EXPECT_EQ(hashes(other, 40), wanted) << threads;
-    }
+    test::expect_same_on_threads([](uint32_t threads) { return shots(settings_on(threads)); }, 40);
 }
 
 TEST(Tear, AWorldThatIsLoadedGoesOnWithTheSameBytes) {
     World world = shots(settings_on(1));
-    for (int frame = 0; frame < 32; ++frame) {
-        if (frame % 4 == 0) {
-            const std::vector<uint8_t> bytes = value_of(world.snapshot());
-            World loaded = test::make_world(settings_on(2));
-            const Result<void> restored = loaded.restore(bytes.data(), bytes.size());
-            ASSERT_TRUE(restored.ok()) << restored.error();
-            EXPECT_EQ(loaded.hash(), world.hash());
-            for (int later = 0; later < 3; ++later, ++frame) {
-                world.step(), loaded.step();
-                ASSERT_EQ(loaded.hash(), world.hash()) << frame;
-            }
-        }
-        world.step();
-    }
+    EXPECT_GE(test::expect_loads(world, settings_on(2), 32, [](int frame) { return frame % 4 == 0; }), 8u);
 }
 
 TEST(Tear, ARecordingReplaysOnAnyNumberOfThreads) {
-    const fs::path folder = fs::temp_directory_path() / ("cullet_tear_test." + std::to_string(getpid()));
-    fs::create_directories(folder);
-    const std::string path = (folder / "shot.crec").string();
-    {
-        World world = test::make_world(settings_on(1));
-        ASSERT_TRUE(world.start_recording(path).ok());
+    test::expect_replays(settings_on(1), 30, [](World& world) {
         spawn_panel(world, panel());
         throw_ball(world, kHard);
         for (int frame = 0; frame < 30; ++frame) world.step();
         EXPECT_EQ(test::shells_of(world).size(), 2u);
-        ASSERT_TRUE(world.stop_recording().ok());
-    }
-    ReplaySettings on;
-    on.threads = {1, 2, 3, 8};
-    const ReplayReport report = value_of(replay(path, on));
-    EXPECT_EQ(report.frames, 30u);
-    EXPECT_EQ(report.difference, "");
-    EXPECT_EQ(report.damage, "");
-    fs::remove_all(folder);
+    });
 }
 
 TEST(Tear, FramesDoNotAllocate) {
