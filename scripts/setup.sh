@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(
     g++ cmake ninja-build ccache pkg-config
-    libeigen3-dev libbullet-dev libembree-dev libtbb-dev libhwy-dev libxxhash-dev
+    libeigen3-dev libbullet-dev libembree-dev libtbb-dev libhwy-dev libxxhash-dev libzstd-dev
     libassimp-dev libdraco-dev libexpat1-dev libminizip-dev libseccomp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libpng-dev liblua5.4-dev libtomlplusplus-dev
     libgtest-dev librapidcheck-dev dpkg-dev file binutils
     ffmpeg  # a program of its own, for films (run --video)

@@ -37,7 +37,7 @@ endif()
 set(pc_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH pc_prefix /prefix/${pc_folder} /prefix)
 string(REGEX REPLACE "/$" "" pc_prefix ${pc_prefix})
-set(core_requires "tbb, libhwy, libxxhash")
+set(core_requires "tbb, libhwy, libxxhash, libzstd")
 set(core_libraries "-lembree3 -pthread")  # Embree has no file of its own
 function(write_pc name description libraries requires private_requires private_libraries)
   configure_file(${package_files}/cullet.pc.in ${generated}/${name}.pc @ONLY)
@@ -75,6 +75,6 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, and files for CMake and pk
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "cullet (= ${PROJECT_VERSION})")
 if(NOT BUILD_SHARED_LIBS)  # an archive is linked with what it needs
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-         ", libbullet-dev, libembree-dev, libtbb-dev, libhwy-dev, libxxhash-dev, pkg-config")
+         ", libbullet-dev, libembree-dev, libtbb-dev, libhwy-dev, libxxhash-dev, libzstd-dev, pkg-config")
 endif()
 include(CPack)

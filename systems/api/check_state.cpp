@@ -25,15 +25,16 @@ struct Checker {
         if (!fits && is_sound()) trouble = name + ": " + what + ". " + kAdvice;
         return is_sound();
     }
+    // There are millions of these two in a large world: the sentence is made only where it is needed.
     /// `table.column[row] is value`, which must be below `limit`, or none where it may be.
     void expect_row(const AnyTable& table, const char* column, uint32_t row, uint32_t value, uint32_t limit,
                     bool may_be_none) {
-        expect(value < limit || (may_be_none && value == kNone),
-               place(table, column, row) + " is " + std::to_string(value) + ", of " + std::to_string(limit));
+        if (value < limit || (may_be_none && value == kNone)) return;
+        expect(false, place(table, column, row) + " is " + std::to_string(value) + ", of " + std::to_string(limit));
     }
     void expect_flag(const AnyTable& table, const Column<uint8_t>& column, const char* column_name, uint32_t row) {
-        expect(column[row] <= 1,
-               place(table, column_name, row) + " is " + std::to_string(column[row]) + ", not 0 or 1");
+        if (column[row] <= 1) return;
+        expect(false, place(table, column_name, row) + " is " + std::to_string(column[row]) + ", not 0 or 1");
     }
     static std::string place(const AnyTable& table, const char* column, uint32_t row) {
         return std::string(table.name()) + "." + column + "[" + std::to_string(row) + "]";
@@ -272,9 +273,40 @@ void check_damage_models(Checker& check) {
     }
 }
 
+/// Indices of a body's drawn mesh name vertices of it, and come from parts that its structure has.
+void check_drawn(Checker& check, Row<Bodies> b) {
+    const State& s = check.state;
+    const Row<Structures> structure = s.bodies.structure[b];
+    const bool is_scenery = s.bodies.kind[b] == static_cast<uint8_t>(BodyKind::Scenery);
+    const uint32_t parts = structure.exists() ? calls_of(s.structures, structure).drawn_parts(s, structure) : 0;
+    const Range vertices = s.bodies.view_vertices[b], indices = s.bodies.view_indices[b];
+    for (uint32_t i = indices.first; i < indices.first + indices.count && check.is_sound(); ++i) {
+        check.expect_row(s.view_indices, "index", i, s.view_indices.index[i], vertices.count, false);
+        if (!is_scenery)
+            check.expect_row(s.view_indices, "source", i, s.view_indices.source[i] / kMostDrawnTriangles, parts, false);
+    }
+}
+
+/// A model's mesh that a thousand bodies show is looked at once, with the structure that they share.
+class CheckedMeshes {
+ public:
+    explicit CheckedMeshes(size_t meshes) : structure_(meshes, kNone) {}
+    /// False: this mesh was asked about with this structure just before. What is no model's mesh is always true.
+    bool once(Row<ModelMeshes> mesh, Row<Structures> structure) {
+        if (!mesh.exists()) return true;
+        if (structure.exists() && structure_[mesh] == structure.index) return false;
+        structure_[mesh] = structure.index;
+        return true;
+    }
+
+ private:
+    std::vector<uint32_t> structure_;
+};
+
 void check_bodies(Checker& check) {
     const State& s = check.state;
     const Bodies& bodies = s.bodies;
+    CheckedMeshes to_check(s.model_meshes.size());
     for (uint32_t b = 0; b < bodies.size() && check.is_sound(); ++b) {
         check.expect(bodies.kind[b] <= static_cast<uint8_t>(BodyKind::Scenery),
                      Checker::place(bodies, "kind", b) + " is " + std::to_string(bodies.kind[b]));
@@ -304,22 +336,13 @@ void check_bodies(Checker& check) {
         check.expect(owed <= kOwedShape && (owed == 0 || bodies.structure[b].exists()),
                      Checker::place(bodies, "is_owed_births", b) + " is " + std::to_string(owed) + ", not 0 to " +
                          std::to_string(kOwedShape) + ", and 0 of what has no structure");
-        const Range vertices = bodies.view_vertices[b], indices = bodies.view_indices[b];
+        const Range indices = bodies.view_indices[b];
         uint64_t runs = 0;
         for (const uint32_t count : bodies.run_indices[b]) runs += count;
         check.expect(runs == indices.count, Checker::place(bodies, "run_indices", b) + " add up to " +
                                                 std::to_string(runs) + "; the body has " +
                                                 std::to_string(indices.count) + " indices");
-        const uint32_t elements = bodies.structure[b].exists()
-                                      ? calls_of(s.structures, bodies.structure[b]).drawn_parts(s, bodies.structure[b])
-                                      : 0;
-        for (uint32_t i = 0; i < indices.count && check.is_sound(); ++i) {
-            check.expect_row(s.view_indices, "index", indices.first + i, s.view_indices.index[indices.first + i],
-                             vertices.count, false);
-            if (!is_scenery)
-                check.expect_row(s.view_indices, "source", indices.first + i,
-                                 s.view_indices.source[indices.first + i] / kMostDrawnTriangles, elements, false);
-        }
+        if (to_check.once(bodies.model_mesh[b], bodies.structure[b])) check_drawn(check, Row<Bodies>(b));
     }
 }
 

@@ -6,6 +6,7 @@
 #include "engine/host_scope.hpp"
 #include "engine/memory.hpp"
 #include "engine/mesh_file.hpp"
+#include "engine/packed_bytes.hpp"
 #include "engine/table_bytes.hpp"
 #include "systems/api/checks.hpp"
 #include "systems/api/settings_bytes.hpp"
@@ -59,7 +60,7 @@ Result<void> take_damage_models(ByteReader& in, const DamageModels& models, cons
 
 namespace {
 
-constexpr uint64_t kLargestFile = 1ull << 36;
+constexpr uint64_t kLargestFile = 1ull << 36, kLargestUnpacked = 1ull << 33;
 constexpr const char* kAdvice = "The snapshot is damaged or of another build; take it again.";
 constexpr FileKind kKind{{'c', 's', 'n', 'a', 'p', '\r', '\n', '\x1a'},
                          21,
@@ -256,12 +257,24 @@ Result<void> World::restore(const uint8_t* bytes, size_t size, const char* name)
 Result<void> World::save(const std::string& path) {
     const Result<std::vector<uint8_t>> bytes = snapshot();
     if (!bytes) return Error{path + ": " + bytes.error()};
-    return write_whole_file(*bytes, path);
+    try {
+        return write_whole_file(pack(*bytes), path);
+    } catch (const std::bad_alloc&) {
+        return Error{path + ": no memory to pack " + std::to_string(bytes->size()) + " bytes. Free memory."};
+    }
 }
 
 Result<void> World::load(const std::string& path) {
-    const Result<std::vector<uint8_t>> bytes = read_whole_file(path, kLargestFile);
+    Result<std::vector<uint8_t>> bytes = read_whole_file(path, kLargestFile);
     if (!bytes) return Error{bytes.error()};
+    if (is_packed(*bytes)) {  // else the bytes of snapshot(), which the game wrote
+        try {
+            bytes = unpack(*bytes, path, kLargestUnpacked);
+        } catch (const std::bad_alloc&) {
+            return Error{path + ": no memory to unpack it. Free memory."};
+        }
+        if (!bytes) return Error{bytes.error()};
+    }
     return restore(bytes->data(), bytes->size(), path.c_str());
 }
 

@@ -238,7 +238,8 @@ class World {
     Result<std::vector<uint8_t>> snapshot();
     /// `name` stands in sentences. What is refused leaves the world as it was. Limits and settings are the snapshot's.
     Result<void> restore(const uint8_t* bytes, size_t size, const char* name = "snapshot");
-    /// The same, to and from a file.
+    /// The same, to and from a file. The file is packed by Zstandard: 200 intact pots of one model take 3 MB in place
+    /// of 200. load reads the bytes of snapshot() as well. It refuses what unpacks to more than 8 GiB.
     Result<void> save(const std::string& path);
     Result<void> load(const std::string& path);
 
