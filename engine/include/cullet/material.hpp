@@ -38,7 +38,7 @@ struct MaterialSettings {
     float fracture_energy = 20;      // J/m2, G_c, of brittle ones
     float crush_strength = 6e9f;     // Pa, of brittle ones: pressure under which the struck face gives way for good
     /// Decides about the blow while its damage is worked off, and how long a soft body swings. Rigid bounces have
-    /// ContactSettings::restitution instead, 0.2 if not given.
+    /// ContactSettings::restitution instead, 0.2 if not given; of sheet metal this.
     float restitution = 0.6f;
     float friction = 0.45f;  // of contacts, unless ContactSettings::friction is given
     // Of brittle ones, down to across_fracture_energy but for bending_stiffness.

@@ -33,7 +33,7 @@ struct Box {
 struct ContactSettings {
     // At most 100. < 0: the material's; 0.45 for what has none: spheres, static triangles, kinematic boxes.
     float friction = -1;
-    float restitution = -1;  // at most 1; < 0: 0.2; used above 0.2 m/s
+    float restitution = -1;  // at most 1; < 0: of sheet metal the material's, else 0.2; used above 0.2 m/s
     // Of balls and what they roll on, as a share of the ball's radius. On a level floor a ball of uniform density slows
     // by rolling_friction * g / 1.4. On a slope it starts to roll where the slope's tangent is larger. Of two bodies
     // the larger one counts. At most 1; < 0: 0.01 of a ball, 0 of all else. What is no ball rolls as on the rim of a
