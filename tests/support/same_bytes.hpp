@@ -35,17 +35,17 @@ void expect_same_on_threads(Make make, int frames) {
     }
 }
 
-/// Saves the world in each frame that is_due(frame) says, loads it into another one, and plays both on for three
-/// frames. How often.
-template <class IsDue>
-uint32_t expect_loads(World& world, const Settings& of_loaded, int frames, IsDue is_due) {
+/// Saves the world in each frame that is_due(frame) says, loads it into another one that make_other() gives, and plays
+/// both on for three frames. How often.
+template <class MakeOther, class IsDue>
+uint32_t expect_loads(World& world, MakeOther make_other, int frames, IsDue is_due) {
     uint32_t loads = 0;
     for (int frame = 0; frame < frames; ++frame) {
         if (is_due(frame)) {
             const Result<std::vector<uint8_t>> bytes = world.snapshot();
             EXPECT_TRUE(bytes.ok()) << bytes.error();
             if (!bytes.ok()) return loads;
-            World loaded = make_world(of_loaded);
+            World loaded = make_other();
             const Result<void> restored = loaded.restore(bytes->data(), bytes->size());
             EXPECT_TRUE(restored.ok()) << restored.error();
             if (!restored.ok()) return loads;

@@ -10,6 +10,7 @@
 #include "systems/models/thick_shell/model.hpp"
 #include "tests/models/halves/model.hpp"
 #include "tests/support/closed_view.hpp"
+#include "tests/support/same_bytes.hpp"
 #include "tests/support/simple_meshes.hpp"
 #include "tests/support/small_worlds.hpp"
 
@@ -91,15 +92,6 @@ uint32_t bodies_of(const World& world, const std::string& model) {
         if (state.bodies.kind[b] != 0 && state.bodies.structure[b].exists())
             count += state.structures.damage_model[state.bodies.structure[b]] == d.damage_models->find(model);
     return count;
-}
-
-std::vector<uint64_t> hashes(World& world, int frames) {
-    std::vector<uint64_t> list;
-    for (int frame = 0; frame < frames; ++frame) {
-        world.step();
-        list.push_back(world.hash());
-    }
-    return list;
 }
 
 std::string file_of(const std::string& name) {
@@ -195,19 +187,17 @@ TEST(Halves, TheGameCutsItAsAnyShell) {
 
 TEST(Halves, AnyNumberOfThreadsGivesTheSameBytes) {
     World one = both_models(halves_first(), settings_on(1, 400'000));
-    const std::vector<uint64_t> wanted = hashes(one, 60);
+    (void)test::hashes_of(one, 60);
     EXPECT_GE(bodies_of(one, "halves"), 4u);
-    for (const uint32_t threads : {2u, 3u, 8u}) {
-        World other = both_models(halves_first(), settings_on(threads, 400'000));
-        EXPECT_EQ(hashes(other, 60), wanted) << threads;
-    }
+    test::expect_same_on_threads(
+        [](uint32_t threads) { return both_models(halves_first(), settings_on(threads, 400'000)); }, 60);
 }
 
 TEST(Halves, TheThickShellDoesAllThatItDidWithoutIt) {
     const auto play = [](World world) {
         spawn(world, globe_of_glass(), {1, 0.12f, 0}, {0, -6, 0});
         test::add_floor(world);
-        return hashes(world, 60);
+        return test::hashes_of(world, 60);
     };
     const std::vector<uint64_t> alone = play(test::make_world(settings_on(1)));
     EXPECT_EQ(play(value_of(create_with(thick_shell_first(), settings_on(1)))), alone);
@@ -215,29 +205,16 @@ TEST(Halves, TheThickShellDoesAllThatItDidWithoutIt) {
 
 TEST(Halves, AWorldThatIsLoadedInMidHitGoesOnWithTheSameBytes) {
     World world = both_models(thick_shell_first(), settings_on(1, 4'000));
-    uint32_t loads = 0;
-    for (int frame = 0; frame < 40; ++frame) {
-        const bool has_halves = [&] {
+    const uint32_t loads = test::expect_loads(
+        world, [] { return value_of(create_with(thick_shell_first(), settings_on(2))); }, 40,
+        [&](int frame) {
             const State& state = test::state_of(world);
+            bool has_halves = false;
             for (uint32_t t = 0; t < state.tasks.size(); ++t)
-                if (static_cast<TaskState>(state.tasks.state[t]) != TaskState::Free && state.model_of(t) == 1)
-                    return true;
-            return false;
-        }();
-        if (has_halves || frame == 0 || frame == 39) {
-            const std::vector<uint8_t> bytes = value_of(world.snapshot());
-            World loaded = value_of(create_with(thick_shell_first(), settings_on(2)));
-            const Result<void> restored = loaded.restore(bytes.data(), bytes.size());
-            ASSERT_TRUE(restored.ok()) << restored.error();
-            EXPECT_EQ(loaded.hash(), world.hash());
-            ++loads;
-            for (int later = 0; later < 3; ++later, ++frame) {
-                world.step(), loaded.step();
-                ASSERT_EQ(loaded.hash(), world.hash()) << frame;
-            }
-        }
-        world.step();
-    }
+                has_halves = has_halves || (static_cast<TaskState>(state.tasks.state[t]) != TaskState::Free &&
+                                            state.model_of(t) == 1);
+            return has_halves || frame == 0 || frame == 39;
+        });
     EXPECT_GT(loads, 2u);
 }
 

@@ -121,12 +121,14 @@ TEST(SolidWorld, AnyNumberOfThreadsGivesTheSameBytes) {
 
 TEST(SolidWorld, AWorldThatIsLoadedInMidBreakGoesOnWithTheSameBytes) {
     World world = two_rings(settings_on(1, 4'000'000));
-    const uint32_t loads = test::expect_loads(world, settings_on(2, 4'000'000), 90, [&](int frame) {
-        bool is_open = false;
-        for (uint32_t t = 0; t < state_of(world).tasks.size(); ++t)
-            is_open = is_open || static_cast<TaskState>(state_of(world).tasks.state[t]) != TaskState::Free;
-        return is_open || frame % 20 == 0;
-    });
+    const uint32_t loads = test::expect_loads(
+        world, [] { return test::make_world(settings_on(2, 4'000'000)); }, 90,
+        [&](int frame) {
+            bool is_open = false;
+            for (uint32_t t = 0; t < state_of(world).tasks.size(); ++t)
+                is_open = is_open || static_cast<TaskState>(state_of(world).tasks.state[t]) != TaskState::Free;
+            return is_open || frame % 20 == 0;
+        });
     EXPECT_GT(loads, 3u);
     EXPECT_GE(solids(world), 4u);
 }

@@ -116,7 +116,9 @@ TEST(MetalWorld, AnyNumberOfThreadsGivesTheSameBytes) {
 
 TEST(MetalWorld, AWorldThatIsLoadedGoesOnWithTheSameBytes) {
     World world = crashes(settings_on(1));
-    EXPECT_GE(test::expect_loads(world, settings_on(2), 40, [](int frame) { return frame % 8 == 0; }), 5u);
+    EXPECT_GE(test::expect_loads(
+                  world, [] { return test::make_world(settings_on(2)); }, 40, [](int frame) { return frame % 8 == 0; }),
+              5u);
 }
 
 TEST(MetalWorld, ARecordingReplaysOnAnyNumberOfThreads) {

@@ -250,7 +250,9 @@ TEST(Tear, AnyNumberOfThreadsGivesTheSameBytes) {
 
 TEST(Tear, AWorldThatIsLoadedGoesOnWithTheSameBytes) {
     World world = shots(settings_on(1));
-    EXPECT_GE(test::expect_loads(world, settings_on(2), 32, [](int frame) { return frame % 4 == 0; }), 8u);
+    EXPECT_GE(test::expect_loads(
+                  world, [] { return test::make_world(settings_on(2)); }, 32, [](int frame) { return frame % 4 == 0; }),
+              8u);
 }
 
 TEST(Tear, ARecordingReplaysOnAnyNumberOfThreads) {
