@@ -4,6 +4,7 @@
 #include "components/bodies.hpp"
 #include "components/run_rows.hpp"
 #include "components/soft.hpp"
+#include "components/squeezes.hpp"
 
 namespace cullet {
 
@@ -16,6 +17,7 @@ struct TablesOfBodies {
     ViewIndices view_indices{limits.view_vertices * 2, limits.bodies + limits.models};
     QuickBodies quick_bodies{limits.bodies};
     ModelMeshes model_meshes{limits.models + limits.bodies, limits.models + limits.bodies};
+    Squeezes squeezes{limits.bodies};
 };
 struct BodyRows : RunRows, TablesOfBodies {
     BodyRows(const Limits& l, const MaterialRows& of_what) : RunRows(l, of_what), TablesOfBodies{l} {}

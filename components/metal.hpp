@@ -175,6 +175,16 @@ struct MetalImpacts : Table<MetalImpacts> {
     Column<double> energy{*this, "energy", "J"};   // of all touches
 };
 
+/// Row b is what presses on body b slowly, until its task works it off. There are no rows while nothing was pressed.
+struct MetalPresses : Table<MetalPresses> {
+    using Table::Table;
+    static constexpr const char* kName = "metal_presses";
+    Column<uint8_t> is_on{*this, "is_on"};     // 0: nothing presses
+    Column<float> depth{*this, "depth", "m"};  // that it lies in the body
+    Column<float> ahead{*this, "ahead", "m"};  // that it comes until the dent is there
+    Column<float> force{*this, "force", "N"};  // of who makes way itself; 0: it comes as far as it is in
+};
+
 inline constexpr uint32_t kFrontRows = 64;
 
 /// Rows [64 t, + 64) are the front of what strikes in task t: how far it has come along the push at each place of a

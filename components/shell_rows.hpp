@@ -201,6 +201,7 @@ struct TablesOfMetal {
     MetalRuns metal_runs{limits.tasks};
     MetalImpacts metal_impacts{limits.bodies};
     StrikerFronts striker_fronts{limits.tasks * kFrontRows};
+    MetalPresses metal_presses{limits.bodies};
 };
 struct MetalRows : PartRows, TablesOfMetal {
     MetalRows(const Limits& l, const MaterialRows& of_what) : PartRows(l, of_what), TablesOfMetal{l} {}

@@ -188,6 +188,8 @@ class RigidWorld {
     virtual void hold(RigidId id) = 0;
     virtual void release(RigidId id) = 0;
     virtual bool is_held(RigidId id) const = 0;
+    /// What is held stands elsewhere, wherever that is. A host moves its bodies itself.
+    virtual void carry(RigidId, Vec3) {}
     /// Contacts between these two are not solved in this step.
     virtual void skip_contacts(RigidId a, RigidId b) = 0;
     /// Contacts between these two have at least this restitution in this step. A host's are its own affair.

@@ -15,6 +15,7 @@ void each_event(const StepEvents& step, const Visit& visit) {
     visit("refused", step.refused);
     visit("fault", step.faults);
     visit("asleep", step.asleep);
+    visit("squeezed", step.squeezed);
 }
 
 /// "impact, crack_started, ..."

@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
+#include <utility>
 
 #include "cullet/model.hpp"
 #include "cullet/version.hpp"
@@ -18,6 +20,42 @@ const std::map<std::string, HashWhen> kHashWhen{
     {"every", HashWhen::Every}, {"last", HashWhen::Last}, {"off", HashWhen::Off}};
 
 const std::map<std::string, PictureLook> kLooks{{"material", PictureLook::Material}, {"pieces", PictureLook::Pieces}};
+
+/// CLI11's own prints six digits, whatever the ends are: "not in range 0.000000 to 1000000.000000".
+template <class T>
+CLI::Validator within(T least, T most) {
+    const auto check = [least, most](std::string& text) -> std::string {
+        const std::string_view digits = std::string_view(text).substr(text.starts_with('+'));
+        T value{};
+        const auto [end, trouble] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        if (trouble == std::errc() && end == digits.data() + digits.size() && value >= least && value <= most)
+            return {};
+        constexpr const char* kKind = std::is_integral_v<T> ? "whole number" : "number";
+        return fmt::format("\"{}\" is no {} from {} to {}", text, kKind, least, most);
+    };
+    return {check, fmt::format("{} in [{} - {}]", std::is_integral_v<T> ? "UINT" : "FLOAT", least, most)};
+}
+
+/// How many letters to change, put in or leave out.
+size_t letters_between(std::string_view a, std::string_view b) {
+    std::vector<size_t> row(b.size() + 1);
+    for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (size_t i = 1; i <= a.size(); ++i) {
+        size_t before = std::exchange(row[0], i);
+        for (size_t j = 1; j <= b.size(); ++j)
+            before = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, before + (a[i - 1] != b[j - 1])}));
+    }
+    return row[b.size()];
+}
+
+/// " Did you mean --frames?", or nothing where no name is near.
+std::string guess(std::string_view word, const std::vector<std::string>& names) {
+    size_t least = 1 + std::max<size_t>(1, std::min<size_t>(3, word.size() / 3));
+    std::string nearest;
+    for (const std::string& name : names)
+        if (const size_t away = letters_between(word, name); away < least) least = away, nearest = name;
+    return nearest.empty() ? "" : " Did you mean " + nearest + "?";
+}
 
 std::string scene_names() {
     std::string names;
@@ -65,14 +103,14 @@ void add_run(CLI::App& app, RunOptions& run) {
     command->add_option("--model", run.model,
                         "How what is cooked breaks: " + model_names() + "; as the material says if not given");
     command->add_option("--frames", run.frames, "How many steps; the scene's own number if not given")
-        ->check(CLI::Range(1u, 1'000'000u));
-    command->add_option("--dt-ms", run.dt_ms, "Milliseconds a step")->check(CLI::Range(1000.0 / 240, 1000.0 / 20));
+        ->check(within(1u, 1'000'000u));
+    command->add_option("--dt-ms", run.dt_ms, "Milliseconds a step")->check(within(1000.0 / 240, 1000.0 / 20));
     command->add_option("--threads", run.threads, "Threads that step the world; all if not given")
-        ->check(CLI::Range(1u, 64u));
+        ->check(within(1u, 64u));
     command->add_option("--repeat", run.repeat, "Plays so often and takes each frame's least time")
-        ->check(CLI::Range(1u, 1000u));
+        ->check(within(1u, 1000u));
     command->add_option("--out", run.out, "Folder for report.html, report.json, pictures and the trace");
-    command->add_option("--draw", run.draw, "Draws every so many frames")->check(CLI::Range(1u, 1'000'000u));
+    command->add_option("--draw", run.draw, "Draws every so many frames")->check(within(1u, 1'000'000u));
     command
         ->add_option_function<std::string>(
             "--look", [&run](const std::string& look) { run.look = kLooks.at(look); },
@@ -80,7 +118,7 @@ void add_run(CLI::App& app, RunOptions& run) {
             "not given")
         ->check(CLI::IsMember({"material", "pieces"}));
     command->add_option("--width", run.width, "Of pictures, pixels, 16 to 9; 960 if not given")
-        ->check(CLI::Range(160u, 3840u));
+        ->check(within(160u, 3840u));
     command->add_flag("--contact-sheet", run.has_sheet, "Twelve frames in one picture, sheet.png");
     command->add_flag("--video", run.has_video, "A film of the run, film.mp4; needs the program ffmpeg");
     command->add_option("--trace", run.trace, "Chrome trace of the last repeat, for Perfetto");
@@ -120,12 +158,12 @@ void add_cook(CLI::App& app, CookOptions& cook) {
     command->add_option("--fracture", cook.fracture, "How near to each other cracks start; the material's if not given")
         ->check(CLI::IsMember({"large", "coarse", "fine"}));
     command->add_option("--thickness-m", cook.thickness_m, "Of the wall, m; 1.5 % of the largest side if not given")
-        ->check(CLI::Range(1e-9, 1e6));
+        ->check(within(1e-9, 1e6));
     command
         ->add_option("--edge-m", cook.edge_m, "Longer edges are split first, m; what suits the thickness if not given")
-        ->check(CLI::Range(1e-9, 1e6));
+        ->check(within(1e-9, 1e6));
     command->add_option("--weld", cook.weld, "Points so near are one, as a share of the diagonal; 1e-7 heals noise")
-        ->check(CLI::Range(0.0, 0.01));
+        ->check(within(0.0, 0.01));
     command->add_option("--seed", cook.seed, "Of the spread of strength")->capture_default_str();
     for (const auto& group : all_cook_settings())
         for (const Setting& setting : group.list) add_setting(*command, cook, setting);
@@ -142,7 +180,7 @@ void add_replay(CLI::App& app, ReplayOptions& replay) {
     command->add_option("file", replay.file, "What run --record wrote")->required();
     command->add_option("--against", replay.against, "Numbers of threads, one run each: 1,2,8")
         ->delimiter(',')
-        ->check(CLI::Range(1u, 64u));
+        ->check(within(1u, 64u));
 }
 
 void add_reproduce(CLI::App& app, reproduce::CommandOptions& options) {
@@ -153,7 +191,7 @@ void add_reproduce(CLI::App& app, reproduce::CommandOptions& options) {
     command->add_option("--data", options.data,
                         "Folder of test meshes; CULLET_TEST_DATA or ../shared/data if not given");
     command->add_option("--threads", options.threads, "Threads that step worlds and draw; all if not given")
-        ->check(CLI::Range(1u, 64u));
+        ->check(within(1u, 64u));
     command->add_option("--only", options.only, "One claim by its id, such as figure_3");
     command->add_flag(
         "--reduced", options.is_reduced,
@@ -169,20 +207,20 @@ void add_fem(CLI::App& app, FemOptions& options) {
     command->add_option("--results", options.results, "What ccx printed (NAME.dat) of a deck with these parameters");
     command->add_option("--deck", options.deck, "Writes a deck for ccx to this file, and compares nothing");
     command->add_option("--out", options.out, "Folder for mid_line.csv");
-    command->add_option("--work-j", blow.work, "Of the blow; the curve's if not given")->check(CLI::Range(1e-3, 1e9));
-    command->add_option("--width-m", sheet.width, "Along the mid-line")->check(CLI::Range(0.01, 100.0));
-    command->add_option("--height-m", sheet.height, "Across it")->check(CLI::Range(0.01, 100.0));
-    command->add_option("--thickness-m", sheet.thickness, "Of the sheet")->check(CLI::Range(1e-5, 0.1));
+    command->add_option("--work-j", blow.work, "Of the blow; the curve's if not given")->check(within(1e-3, 1e9));
+    command->add_option("--width-m", sheet.width, "Along the mid-line")->check(within(0.01, 100.0));
+    command->add_option("--height-m", sheet.height, "Across it")->check(within(0.01, 100.0));
+    command->add_option("--thickness-m", sheet.thickness, "Of the sheet")->check(within(1e-5, 0.1));
     command->add_option("--material", sheet.material, "steel, aluminium or copper");
-    command->add_option("--young-pa", sheet.young_modulus, "Of the deck")->check(CLI::Range(1e6, 1e13));
-    command->add_option("--yield-pa", sheet.yield_stress, "Of both")->check(CLI::Range(1e5, 1e10));
-    command->add_option("--patch-m", sheet.patch, "Side of the pressed square")->check(CLI::Range(1e-3, 10.0));
-    command->add_option("--pressure-pa", sheet.pressure, "On it, of the deck")->check(CLI::Range(1.0, 1e10));
+    command->add_option("--young-pa", sheet.young_modulus, "Of the deck")->check(within(1e6, 1e13));
+    command->add_option("--yield-pa", sheet.yield_stress, "Of both")->check(within(1e5, 1e10));
+    command->add_option("--patch-m", sheet.patch, "Side of the pressed square")->check(within(1e-3, 10.0));
+    command->add_option("--pressure-pa", sheet.pressure, "On it, of the deck")->check(within(1.0, 1e10));
     command->add_option("--ball-m", blow.ball_radius, "Radius of our ball; 0: its contact is as large as the patch")
-        ->check(CLI::Range(0.0, 10.0));
-    command->add_option("--columns", blow.columns, "Of our mesh")->check(CLI::Range(4u, 1000u));
-    command->add_option("--rows", blow.rows, "Of our mesh")->check(CLI::Range(4u, 1000u));
-    command->add_option("--cells", blow.cells, "Sub-shells")->check(CLI::Range(4u, 512u));
+        ->check(within(0.0, 10.0));
+    command->add_option("--columns", blow.columns, "Of our mesh")->check(within(4u, 1000u));
+    command->add_option("--rows", blow.rows, "Of our mesh")->check(within(4u, 1000u));
+    command->add_option("--cells", blow.cells, "Sub-shells")->check(within(4u, 512u));
     command->add_flag("--published", options.is_published, "Every switch as published");
 }
 
@@ -219,12 +257,23 @@ Result<void> check_command(const CLI::App& app, const std::vector<std::string>& 
             fmt::format("{}: there is no such option before the command; --help shows what can be given.", first)};
     const auto has_name = [&](const CLI::App* command) { return command->get_name() == first; };
     if (first.starts_with("-") || !app.get_subcommands(has_name).empty()) return {};
-    return Error{fmt::format("{}: there is no such command; give one of {}.", first, command_names(app))};
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+    return Error{
+        fmt::format("{}: there is no such command; give one of {}.{}", first, command_names(app), guess(first, names))};
 }
 
 std::string where_to_look(const CLI::App& app) {
     const auto given = app.get_subcommands();
     return "sample_game " + (given.empty() ? "" : given[0]->get_name() + " ") + "--help shows what can be given.";
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+    const auto given = app.get_subcommands();
+    std::vector<std::string> names;
+    for (const CLI::Option* option : (given.empty() ? app : *given[0]).get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
 }
 
 std::string one_sentence(std::string text) {
@@ -267,9 +316,9 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     truth
         ->add_option("--placements", options.truth.placements,
                      "Seeded placements of each scene for the medians; the bands are judged on the first 20")
-        ->check(CLI::Range(1u, 1000u));
+        ->check(within(1u, 1000u));
     truth->add_option("--threads", options.truth.threads, "Threads that share the placements; 2 if not given")
-        ->check(CLI::Range(1u, 64u));
+        ->check(within(1u, 64u));
     truth->add_option("--out", options.truth.out, "Folder for truth.json");
     app.footer(scene_list);
     if (const Result<void> known = check_command(app, arguments); !known.ok()) return Error{known.error()};
@@ -285,7 +334,8 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     } catch (const CLI::ExtrasError&) {
         const std::string extra = app.remaining(true).at(0);
         const char* what = extra.starts_with("-") ? "there is no such option" : "one argument too many";
-        return Error{fmt::format("{}: {}. {}", extra, what, where_to_look(app))};
+        const std::string word = extra.substr(0, extra.find('='));
+        return Error{fmt::format("{}: {}.{} {}", extra, what, guess(word, option_names(app)), where_to_look(app))};
     } catch (const CLI::ArgumentMismatch& error) {
         return Error{lacking(app, error.what()) + " " + where_to_look(app)};
     } catch (const CLI::ParseError& error) {

@@ -105,6 +105,10 @@ void fill_sums(GameWorld& game, const Matter& start, Report& report) {
     report.faults = game.sums().events["fault"];
     report.fault_list = game.sums().faults;
     report.notes.insert(report.notes.end(), game.stage().notes.begin(), game.stage().notes.end());
+    if (const uint64_t squeezed = game.sums().events["squeezed"]; squeezed == 1)
+        report.notes.push_back(game.sums().squeezed + ".");
+    else if (squeezed > 1)
+        report.notes.push_back(fmt::format("{}, the first of {}.", game.sums().squeezed, squeezed));
     report.units.used = game.sums().units_used;
     report.units.most = game.sums().most_units;
     if (!game.stage().models.empty()) report.yardsticks = measure_yardsticks(game.stage().models[0].model);

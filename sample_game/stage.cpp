@@ -178,6 +178,10 @@ void Stage::after_step() {
     for (const FaultEvent& event : step.faults)
         if (sums.faults.size() < kMostFaults)
             sums.faults.push_back(fmt::format("Frame {}, body {}: {}", frame, event.body.index, event.reason));
+    for (const SqueezedEvent& event : step.squeezed)
+        if (sums.squeezed.empty())
+            sums.squeezed =
+                fmt::format("Body {} is squeezed by body {} and cannot give way", event.body.index, event.by.index);
     sums.born += step.fragments_born.count;
     broke = step.fragments_born.count + step.debris.count + step.cracks_started.count > 0;
     const uint64_t used = world->report().units_used;

@@ -40,6 +40,7 @@ struct Mover {
 struct RunSums {
     std::map<std::string, uint64_t> events, refused;
     std::vector<std::string> faults;
+    std::string squeezed;  // the first that was, in words; events counts them
     uint64_t born = 0, units_used = 0, most_units = 0;
     double mass_put_in = 0;
 };

@@ -134,6 +134,16 @@ class DamageModel {
         };
         return *this;
     }
+    /// What yields in its shape: `Note(rows, body, press)` takes note of what presses on the body. True: it wants a
+    /// task for that, whose only contact says where. `Width(rows, body)`: m, to which it can be pressed flat.
+    template <auto Note, auto Width>
+    DamageModel& yields_to_presses() {
+        calls_.is_pressed = [](BodyRows& rows, Row<Bodies> body, const Press& press) {
+            return Note(rows, body, press);
+        };
+        calls_.least_width = [](const BodyRows& rows, Row<Bodies> body) { return double{Width(rows, body)}; };
+        return *this;
+    }
     /// Rows for a task that opens. `Shell(rows, body)` is a WorkingCopy; `Begin(rows, task)` fills
     /// what the model keeps for it.
     template <auto Shell, auto Begin>

@@ -36,7 +36,7 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const DamageModels& models)
         .then<make_births>();
     plan.stage("solve");
     if (!is_hosted) plan.then<solve_rigid>().models(Slot::GiveBack).then<read_rigid>();
-    plan.then<weigh_loads>().then<grind_crushed>().then<fall_debris>();
+    plan.then<weigh_loads>().then<grind_crushed>().then<hold_squeezed>().then<fall_debris>();
     if (CULLET_CHECKS_ON) plan.then<close_energy_balance>();
     plan.then<fade_debris>();
     plan.stage("end")

@@ -35,6 +35,13 @@ struct Knock {
     bool is_sure = true;              // it comes in this step, and is not only foreseen
 };
 
+/// What presses on a body slowly.
+struct Press {
+    double depth = 0;  // m, that who presses lies in it
+    double ahead = 0;  // m, that it comes until the body has given way
+    double force = 0;  // N, of who makes way itself; 0: who presses comes as far as it is in, whatever bears it
+};
+
 /// A working copy of what a body is made of, for a task that opens.
 struct WorkingCopy {
     Row<Structures> structure;   // none: it waits, or there is no room
@@ -71,6 +78,8 @@ struct ModelCalls {
     void (*begin)(BodyRows&, Row<Tasks>) = nullptr;
     bool (*give_late)(BodyRows&, const Blows&, Row<Tasks>, const char** full) = nullptr;
     bool (*may_find_room)(const BodyRows&, Row<Bodies>) = nullptr;
+    bool (*is_pressed)(BodyRows&, Row<Bodies>, const Press&) = nullptr;
+    double (*least_width)(const BodyRows&, Row<Bodies>) = nullptr;
     std::optional<RunLength> (*length)(const BodyRows&, Row<Bodies>) = nullptr;
     ShellRoom (*room)(BodyRows&, Row<Bodies>) = nullptr;
     bool (*is_part)(const RunRows&, uint32_t task) = nullptr;

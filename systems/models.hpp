@@ -32,6 +32,9 @@ class DamageModels {
     Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning) const;
 
     bool leaves_nothing(BodyRows& rows, const Knock& knock, float& bounce) const;
+    /// m, to which what yields in its shape can be pressed flat. None: it does not yield so, it comes apart.
+    std::optional<double> least_width(const BodyRows& rows, Row<Bodies> body) const;
+    bool is_pressed(BodyRows& rows, Row<Bodies> body, const Press& press) const;
     WorkingCopy working_copy(BodyRows& rows, Row<Bodies> body) const;
     void begin_run(BodyRows& rows, Row<Tasks> task) const;
     bool give_late(BodyRows& rows, const Blows& blows, Row<Tasks> task, const char** full) const;

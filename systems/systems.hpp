@@ -135,6 +135,10 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHit
 /// Each of those becomes debris with its mass and its motion. Without room it stays as it is, and asks again.
 void grind_crushed(Serial, Step step, const Events<Crushed>& crushed, SoftRows& rows, WaitingHits waiting,
                    Crumbs crumbs, const DamageModels& models, RigidWorld& rigid, ToldOfGrinding told);
+/// What two that yield to nothing leave too little room, and what can give way no further, is held between them, in
+/// both alike, and goes free where it is. What moves by its springs is woken.
+void hold_squeezed(Serial, Step step, RigidWorld& rigid, SoftRows& rows, DamageLedger ledger, Arena& arena,
+                   Events<SqueezedEvent>& told);
 /// Debris flies on parabolas, bounces off the ground and off bodies larger than itself, slides and comes to rest. A
 /// host keeps its shapes to itself. In its world debris knows only the floor below its place of birth.
 void fall_debris(Serial, Step step, const RigidWorld& rigid, Debris& debris, DamageCounts& counts);

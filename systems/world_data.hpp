@@ -200,7 +200,7 @@ inline auto queues_told(const LimitSettings& limits, const State& state) {
     return Queues(QueueOf<ImpactEvent>{limits.open_hits + state.blows.limit() + limits.bodies},
                   QueueOf<CrackStartedEvent>{1u << 14}, QueueOf<FragmentBornEvent>{limits.bodies},
                   QueueOf<DebrisEvent>{1u << 16}, QueueOf<RefusedEvent>{1u << 12}, QueueOf<FaultEvent>{1u << 10},
-                  QueueOf<AsleepEvent>{limits.bodies});
+                  QueueOf<AsleepEvent>{limits.bodies}, QueueOf<SqueezedEvent>{limits.bodies});
 }
 
 struct WorldData {

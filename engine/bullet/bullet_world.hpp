@@ -61,6 +61,7 @@ class BulletWorld final : public RigidWorld {
     void hold(RigidId id) override;
     void release(RigidId id) override;
     bool is_held(RigidId id) const override;
+    void carry(RigidId id, Vec3 by) override;
     void skip_contacts(RigidId a, RigidId b) override;
     void set_bounce(RigidId a, RigidId b, float restitution) override;
     void ignore_pair(RigidId a, RigidId b, float seconds) override;

@@ -132,6 +132,17 @@ bool BulletWorld::is_held(RigidId id) const {
     return is_known(id) && bodies_[id].is_held;
 }
 
+void BulletWorld::carry(RigidId id, Vec3 by) {
+    if (!is_held(id)) return;
+    InsideRigidEngine guard(counts_.allocations);
+    Body& body = bodies_[id];
+    wake_touching(id);
+    btTransform at = body.bullet->getCenterOfMassTransform();
+    at.setOrigin(at.getOrigin() + to_bullet(by));
+    body.bullet->setCenterOfMassTransform(at);
+    refresh(body);
+}
+
 // The manifolds stay, without points: what the two remember of each other is not lost.
 void BulletWorld::skip_contacts(RigidId a, RigidId b) {
     if (!is_known(a) || !is_known(b) || a == b) return;

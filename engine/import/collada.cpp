@@ -122,11 +122,12 @@ class ColladaListener : public XmlListener {
         const std::string_view local = without_prefix(name);
         if (local == "p" && is_listening_) take_list();
         if (local == "ph") drop(first_byte(), byte_count());
+        if (local == "up_axis" && is_up_axis_) take_up_axis();
         if ((local == "tristrips" || local == "trifans") && strips_.is_open) close_strips();
     }
 
     void text(std::string_view piece) override {
-        if (is_listening_) text_ += piece;
+        if (is_listening_ || is_up_axis_) text_ += piece;
     }
 
     Result<PlainCollada> finished() {
@@ -230,6 +231,11 @@ class ColladaListener : public XmlListener {
         if (is_any_of({"spline", "convex_mesh", "brep", "skew"})) ++counts_[std::string(local)];
         if (local == "skew") leave_out();  // assimp 5.2 ends in abort() at it
         if (local == "unit" && depth_ == kDepthOfUnit) check_unit(attributes);
+        if (local == "up_axis" && depth_ == kDepthOfUnit) {
+            text_.clear();
+            is_up_axis_ = true;
+            up_axis_byte_ = first_byte() + byte_count();
+        }
     }
 
     /// False for what is in another file: assimp refuses a file that names one, and passes over what is not there
@@ -248,6 +254,21 @@ class ColladaListener : public XmlListener {
         const char* const metres = attribute(attributes, "meter");
         if (metres != nullptr && !is_length(number_of(Words(metres).next())))
             say("its unit is \"" + one_line(metres, 40) + "\" m, which is no length");
+    }
+
+    // assimp takes all but two spellings for y, without a word.
+    void take_up_axis() {
+        is_up_axis_ = false;
+        const std::string word(Words(text_).peek());
+        constexpr std::array<const char*, 3> kKnown{"X_UP", "Y_UP", "Z_UP"};
+        if (std::find(kKnown.begin(), kKnown.end(), word) != kKnown.end()) return;
+        for (const char* known : kKnown) {
+            if (small_letters(word) != small_letters(known)) continue;
+            drop(up_axis_byte_, first_byte() - up_axis_byte_);
+            out_ += known;
+            return;
+        }
+        say("its up axis is \"" + one_line(word, 40) + "\", which is none of X_UP, Y_UP and Z_UP");
     }
 
     std::vector<std::string> notes() const {
@@ -279,7 +300,8 @@ class ColladaListener : public XmlListener {
     unsigned depth_ = 0;                     // 1 in the first element
     unsigned left_out_depth_ = 0;            // of the element that is being left out; 0 outside of such
     Strips strips_;
-    bool is_listening_ = false;
+    bool is_listening_ = false, is_up_axis_ = false;
+    size_t up_axis_byte_ = 0;  // where its text begins
     std::map<std::string, uint64_t> counts_;
     std::set<std::string> ids_;       // of what can stand at a node
     std::vector<std::string> named_;  // of these, by nodes

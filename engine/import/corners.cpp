@@ -120,7 +120,9 @@ bool append_triangle(Corners& out, const SourceTriangle& triangle, const Affine&
     Vec3d exact[3];
     Vec3 rounded[3];
     for (int c = 0; c < 3; ++c) {
-        exact[c] = placed(place, corner[c]->position);
+        // One number that is none would make all three so: the refusal is to name it as it stands in the file.
+        const Vec3d p = corner[c]->position;
+        exact[c] = std::isfinite(p.x + p.y + p.z) ? placed(place, p) : p;
         rounded[c] = exact[c].to_float() + Vec3{};  // adding zero makes -0 into 0, so that joining can compare bits
     }
     if (has_repeated_corner(rounded)) {

@@ -127,6 +127,7 @@ Result<void> check_in(const std::string& in) {
     struct stat model {};
     if (::access(in.c_str(), R_OK) != 0 || ::stat(in.c_str(), &model) != 0)
         return Error{in + ": cannot open the file (" + std::strerror(errno) + "). Check the path."};
+    if (S_ISDIR(model.st_mode)) return Error{in + ": is a folder. Give the path of a model in it."};
     if (S_ISREG(model.st_mode) && model.st_size == 0) return Error{in + ": is empty. Copy or export it again."};
     return {};
 }

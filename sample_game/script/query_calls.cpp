@@ -213,6 +213,9 @@ void fill(lua_State* lua, const FaultEvent& e) {
 void fill(lua_State* lua, const AsleepEvent& e) {
     set(lua, "body", e.body), set(lua, "place", e.place);
 }
+void fill(lua_State* lua, const SqueezedEvent& e) {
+    set(lua, "body", e.body), set(lua, "by", e.by), set(lua, "place", e.place);
+}
 
 template <class E>
 bool push_nth(lua_State* lua, const EventSpan<E>& events, uint32_t n) {

@@ -346,6 +346,24 @@ void check_bodies(Checker& check) {
     }
 }
 
+void check_squeezes(Checker& check) {
+    const Bodies& bodies = check.state.bodies;
+    const Squeezes& squeezes = check.state.squeezes;
+    for (uint32_t row = 0; row < squeezes.size() && check.is_sound(); ++row) {
+        check.expect_row(squeezes, "body", row, squeezes.body[row], bodies.size(), false);
+        check.expect_row(squeezes, "by", row, squeezes.by[row], bodies.size(), false);
+        check.expect_row(squeezes, "against", row, squeezes.against[row], bodies.size(), false);
+        if (!check.is_sound()) return;
+        const bool is_its = bodies.generation[squeezes.body[row]] == squeezes.generation[row];
+        check.expect(!is_its || bodies.hold_count[squeezes.body[row]] > 0,
+                     Checker::place(squeezes, "body", row) + " is " + std::to_string(squeezes.body[row].index) +
+                         ", which nothing holds");
+        check.expect(
+            std::abs(length(squeezes.push[row]) - 1) < 1e-3f && squeezes.share[row] >= 0 && squeezes.share[row] <= 1,
+            Checker::place(squeezes, "push", row) + " or the share beside it is out of range");
+    }
+}
+
 void check_models(Checker& check) {
     const Models& models = check.state.models;
     for (uint32_t m = 0; m < models.size(); ++m) {
@@ -526,7 +544,7 @@ Result<void> check_state(const DamageModels& models, const State& state, const s
     const std::string not_finite = state.validate();
     check.expect(not_finite.empty(), not_finite);
     for (auto* look : {check_structures, check_ranges, check_damage_models, check_models, check_tasks, check_bodies,
-                       check_blows, check_users})
+                       check_squeezes, check_blows, check_users})
         if (check.is_sound()) look(check);
     if (!check.is_sound()) return Error{check.trouble};
     if (const Result<void> valid = check_material_rows(state); !valid)

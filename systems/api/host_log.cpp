@@ -35,6 +35,13 @@ void HostLog::tell(const Host& host, const WorldData& data) {
                       static_cast<unsigned long long>(e.body_user_data));
         host.log(host.user, LogLevel::Warning, sentence);
     }
+    for (const SqueezedEvent& e : data.told.of<SqueezedEvent>()) {
+        std::snprintf(sentence, sizeof sentence,
+                      "Body %u (user data %llu) is squeezed by body %u (user data %llu) and cannot give way.",
+                      e.body.index, static_cast<unsigned long long>(e.body_user_data), e.by.index,
+                      static_cast<unsigned long long>(e.by_user_data));
+        host.log(host.user, LogLevel::Warning, sentence);
+    }
     for (const FaultEvent& e : data.told.of<FaultEvent>()) {
         std::snprintf(sentence, sizeof sentence, "Body %u (user data %llu): %s", e.body.index,
                       static_cast<unsigned long long>(e.body_user_data), e.reason);

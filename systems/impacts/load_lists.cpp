@@ -20,28 +20,19 @@ bool stands(const Bodies& bodies, Row<Bodies> b) {
     return !yields(bodies, b) || bodies.is_asleep[b];
 }
 
-bool is_driven(const Bodies& bodies, Row<Bodies> b) {
-    return b.exists() && static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Kinematic;
-}
-
-// m/s and rad/s, of who is driven; what stands still or sleeps has none.
-Vec3 spin_of(const Bodies& bodies, Row<Bodies> b) {
-    return is_driven(bodies, b) ? bodies.spin[b] : Vec3{};
-}
-Vec3 velocity_at(const Bodies& bodies, Row<Bodies> b, Vec3 point) {
-    if (!is_driven(bodies, b)) return {};
-    const Vec3 centre = to_world(pose_of(bodies, b), bodies.centre[b].to_float());
-    return bodies.velocity[b] + cross(bodies.spin[b], point - centre);
-}
-
 bool touches(const RigidContact& c) {
     return c.impulse > 0 || c.distance <= 0;
 }
 
 }  // namespace
 
-LoadLists::LoadLists(Bodies& bodies, std::span<const RigidContact> contacts, Step step, Arena& arena)
-    : bodies_(bodies), contacts_(contacts), step_(step), next_(arena.take<uint32_t>(2 * contacts.size())) {
+LoadLists::LoadLists(Bodies& bodies, const Squeezes& squeezes, std::span<const RigidContact> contacts, Step step,
+                     Arena& arena)
+    : bodies_(bodies),
+      squeezes_(squeezes),
+      contacts_(contacts),
+      step_(step),
+      next_(arena.take<uint32_t>(2 * contacts.size())) {
     for (uint32_t b = 0; b < bodies.size(); ++b) bodies.first_load[b] = kNone;
     for (size_t c = next_.size() / 2; c-- > 0;) {
         if (!touches(contacts[c])) continue;
@@ -59,6 +50,21 @@ LoadLists::LoadLists(Bodies& bodies, std::span<const RigidContact> contacts, Ste
     }
 }
 
+bool LoadLists::is_driven(Row<Bodies> b) const {
+    if (!b.exists()) return false;
+    return static_cast<BodyKind>(bodies_.kind[b]) == BodyKind::Kinematic || is_squeezed(squeezes_, b);
+}
+
+Vec3 LoadLists::spin_of(Row<Bodies> b) const {
+    return is_driven(b) ? bodies_.spin[b] : Vec3{};
+}
+
+Vec3 LoadLists::velocity_at(Row<Bodies> b, Vec3 point) const {
+    if (!is_driven(b)) return {};
+    const Vec3 centre = to_world(pose_of(bodies_, b), bodies_.centre[b].to_float());
+    return bodies_.velocity[b] + cross(bodies_.spin[b], point - centre);
+}
+
 float LoadLists::deepest(Row<Bodies> body) const {
     float deepest = 0;
     for (uint32_t entry = bodies_.first_load[body]; entry != kNone; entry = next_[entry])
@@ -66,8 +72,8 @@ float LoadLists::deepest(Row<Bodies> body) const {
     return deepest;
 }
 
-void LoadLists::Behind::meet(const Bodies& bodies, Row<Bodies> other) {
-    const float at = dot(velocity_at(bodies, other, place), push);
+void LoadLists::Behind::meet(const LoadLists& lists, Row<Bodies> other) {
+    const float at = dot(lists.velocity_at(other, place), push);
     if (stands && at <= speed) return;
     who = other;
     stands = true;
@@ -81,7 +87,7 @@ void LoadLists::look_behind(Row<Bodies> body, Row<Bodies> from, uint32_t& looks,
         const Impact as = impact_of(contacts_[entry / 2], static_cast<int>(entry & 1));
         if (as.striker == from || dot(as.normal, behind.push) < kBehind) continue;
         if (stands(bodies_, as.striker))
-            behind.meet(bodies_, as.striker);
+            behind.meet(*this, as.striker);
         else
             look_behind(as.striker, body, looks, behind);
     }
@@ -106,15 +112,15 @@ BodyLoad LoadLists::load_of(uint32_t entry) const {
     behind.push = as.normal;
     uint32_t looks = 0;
     if (stands(bodies_, other))
-        behind.meet(bodies_, other);
+        behind.meet(*this, other);
     else
         look_behind(other, as.body, looks, behind);
     l.is_backed = behind.stands;
     if (!behind.stands) return l;
     const Vec3 centre = to_world(pose, bodies_.centre[as.body].to_float());
     l.driven_speed = behind.speed;
-    l.velocity = in_body_axes(velocity_at(bodies_, behind.who, centre));
-    l.spin = in_body_axes(spin_of(bodies_, behind.who));
+    l.velocity = in_body_axes(velocity_at(behind.who, centre));
+    l.spin = in_body_axes(spin_of(behind.who));
     return l;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <span>
 
+#include "components/squeezes.hpp"
 #include "engine/arena.hpp"
 #include "engine/rigid_world.hpp"
 #include "systems/impacts/overload.hpp"
@@ -12,7 +13,8 @@ namespace cullet {
 /// contacts. No entries, when the arena is full.
 class LoadLists {
  public:
-    LoadLists(Bodies& bodies, std::span<const RigidContact> contacts, Step step, Arena& arena);
+    LoadLists(Bodies& bodies, const Squeezes& squeezes, std::span<const RigidContact> contacts, Step step,
+              Arena& arena);
 
     uint32_t longest() const { return longest_; }  // loads of one body
     bool has_loads(Row<Bodies> body) const { return bodies_.first_load[body] != kNone; }
@@ -23,13 +25,17 @@ class LoadLists {
 
  private:
     BodyLoad load_of(uint32_t entry) const;
+    /// It moves whatever pushes it: the game moves it, or those who squeeze it do.
+    bool is_driven(Row<Bodies> b) const;
+    Vec3 spin_of(Row<Bodies> b) const;  // rad/s, of who is driven; what stands still or sleeps has none
+    Vec3 velocity_at(Row<Bodies> b, Vec3 point) const;
     struct Behind {
         Row<Bodies> who;       // the fastest that stands there; none: nobody does
         bool stands = false;   // somebody does
         float speed = -1e30f;  // m/s, of it at `place` along `push`
         Vec3 place, push;      // of the load: world
 
-        void meet(const Bodies& bodies, Row<Bodies> other);
+        void meet(const LoadLists& lists, Row<Bodies> other);
     };
     void look_behind(Row<Bodies> body, Row<Bodies> from, uint32_t& looks, Behind& behind) const;
     void share_what_is_missing(std::span<BodyLoad> loads, Row<Bodies> body) const;
@@ -46,6 +52,7 @@ class LoadLists {
     double passed_on(const Through& by, uint32_t& looks) const;
 
     Bodies& bodies_;
+    const Squeezes& squeezes_;
     std::span<const RigidContact> contacts_;
     Step step_;
     std::span<uint32_t> next_;

@@ -4,6 +4,7 @@
 #include "components/body_id.hpp"
 #include "systems/bodies/blows.hpp"
 #include "systems/impacts/bending.hpp"
+#include "systems/impacts/between_two.hpp"
 #include "systems/impacts/fragile.hpp"
 #include "systems/impacts/load_lists.hpp"
 #include "systems/impacts/opening.hpp"
@@ -42,6 +43,9 @@ constexpr uint8_t kMostRuns = 2, kMostDrivenRuns = 1;
 constexpr uint8_t kMostCuts = 2;
 // Of fewer elements a blow knocks out a corner, and what is left may have too few to break again.
 constexpr uint32_t kFewestForARun = 200;
+// A dent is laid once two would lie so deep in the sheet, as a share of its size, in so many steps.
+constexpr double kPressedDeep = 0.004, kPressedSteps = 2;
+constexpr float kPressedSpeed = 1e-3f;  // m/s: what has none is a snap
 // After each such run the body is left alone twice as long, but no longer than 64 times; what is crushed 4 times.
 constexpr uint8_t kMostLoadRuns = 6, kMostCrushedRuns = 2;
 
@@ -286,6 +290,8 @@ struct Weighing {
     /// The load has lasted long enough.
     bool is_due(const LoadedBody& of, const Overload& over);
     void give_way(const LoadedBody& of, const Overload& over, const RigidContact& worst);
+    /// What yields in its shape, and does not come apart.
+    void press(const LoadedBody& of, std::span<const BodyLoad> loads, std::span<BodyLoad> room);
 };
 
 void Weighing::wake_if_loaded(const LoadedBody& of, std::span<const BodyLoad> loads) {
@@ -347,6 +353,36 @@ void Weighing::give_way(const LoadedBody& of, const Overload& over, const RigidC
         told.refused.push(refused_event(bodies, body, "limits.queued_hits"));
 }
 
+// One dent after the other: each is there two steps after it was asked for.
+void Weighing::press(const LoadedBody& of, std::span<const BodyLoad> loads, std::span<BodyLoad> room) {
+    Bodies& bodies = rows.bodies;
+    const Row<Bodies> body = of.body;
+    if (bodies.task[body] != kNone || has_waiting_load(queued, body)) return;
+    const double soon = kPressedSteps * double{step.dt};
+    const Between between = between_two(bodies, body, loads, soon, room);
+    if (!between.exists() || !(between.sunk_in(soon) > kPressedDeep * 2 * double{bodies.radius[body]})) return;
+    const bool is_by = !between.against || !between.against->stands ||
+                       between.by->depth + between.closing * soon >= between.against->depth;
+    const BodyLoad& at = is_by ? *between.by : *between.against;
+    Press press;
+    press.depth = std::max(0.0, at.depth);
+    press.ahead = is_by ? between.closing * soon : 0;
+    Overload over;
+    for (const BodyLoad& l : loads)
+        if (l.toucher == at.toucher) over.load += l.force;
+    if (!between.is_driven) press.force = over.load;
+    QueuedHit hit = hit_of(rows, body, rigid.loads()[at.contact], over, step.frame);
+    hit.approach_speed = kPressedSpeed, hit.striker_inverse_mass = kPressedSpeed;  // who presses is not slowed by it
+    if (!is_allowed(bodies, hit, rules.settings) || !rules.models.is_pressed(rows, body, press)) return;
+    if (!queue_hit(queued, hit)) told.refused.push(refused_event(bodies, body, "limits.queued_hits"));
+}
+
+bool yields_in_shape(const LoadedBody& of, const DamageRules& rules, const BodyRows& rows) {
+    return of.structure().exists() && of.bodies.is_breakable[of.body] && !of.bodies.hold_count[of.body] &&
+           may_be_crushed(of.structures, of.structure(), rules.settings) &&
+           rules.models.least_width(rows, of.body).has_value();
+}
+
 }  // namespace
 
 void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHits& queued, const Blows& blows,
@@ -355,7 +391,7 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHit
     const DamageSettings& settings = rules.settings;
     Bodies& bodies = rows.bodies;
     const auto contacts = rigid.loads();
-    const LoadLists lists(bodies, contacts, step, arena);
+    const LoadLists lists(bodies, rows.squeezes, contacts, step, arena);
     const auto found = arena.take<BodyLoad>(lists.longest());
     const OverloadRoom room{arena.take<BodyLoad>(lists.longest()), arena.take<AxisForce>(lists.longest())};
     Weighing weighing{
@@ -364,6 +400,8 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHit
     for (uint32_t b = 0; b < bodies.size(); ++b) {
         const Row<Bodies> body(b);
         LoadedBody of{bodies, rows.structures, rows.shells, rows.vertices, rows.materials, rows.pin_boxes, body};
+        if (lists.has_loads(body) && yields_in_shape(of, rules, rows))
+            weighing.press(of, found.first(lists.take(body, found)), room.loads);
         bool is_looked_at = lists.has_loads(body) && may_be_loaded(of, settings);
         of.yields_to_weights = !is_looked_at || !is_small(of, settings);
         is_looked_at = is_looked_at && (of.yields_to_weights || may_be_pressed(of, lists, is_driven));

@@ -55,6 +55,16 @@ bool DamageModels::leaves_nothing(BodyRows& rows, const Knock& knock, float& bou
     return call && call(rows, knock, bounce);
 }
 
+std::optional<double> DamageModels::least_width(const BodyRows& rows, Row<Bodies> body) const {
+    const auto call = call_of(rows, body, &ModelCalls::least_width);
+    return call ? std::optional<double>(call(rows, body)) : std::nullopt;
+}
+
+bool DamageModels::is_pressed(BodyRows& rows, Row<Bodies> body, const Press& press) const {
+    const auto call = call_of(rows, body, &ModelCalls::is_pressed);
+    return call && call(rows, body, press);
+}
+
 WorkingCopy DamageModels::working_copy(BodyRows& rows, Row<Bodies> body) const {
     const auto call = call_of(rows, body, &ModelCalls::working_copy);
     CULLET_ASSERT(call, "no damage model breaks body %u", body.index);

@@ -98,6 +98,28 @@ TEST(Options, WhatMakesNoSenseIsRefusedInOneSentence) {
     }
 }
 
+TEST(Options, ANumberIsRefusedWithWhatItMayBe) {
+    const auto said = [](const std::vector<std::string>& arguments) { return parse_options(arguments).error(); };
+    EXPECT_EQ(
+        said({"run", "wall", "--frames", "abc"}).rfind("--frames: \"abc\" is no whole number from 1 to 1000000. ", 0),
+        0u)
+        << said({"run", "wall", "--frames", "abc"});
+    EXPECT_EQ(said({"run", "wall", "--frames", "3.5"}).rfind("--frames: \"3.5\" is no whole number", 0), 0u);
+    EXPECT_EQ(said({"cook", "a.obj", "--out", "a.cmodel", "--thickness-m", "0"})
+                  .rfind("--thickness-m: \"0\" is no number from 1e-09 to 1000000. ", 0),
+              0u)
+        << said({"cook", "a.obj", "--out", "a.cmodel", "--thickness-m", "0"});
+    EXPECT_EQ(said({"cook", "a.obj", "--out", "a.cmodel", "--thickness-m", "nan"}).rfind("--thickness-m: \"nan\"", 0),
+              0u);
+}
+
+TEST(Options, WhatIsNearlyAnOptionOrACommandIsGuessed) {
+    EXPECT_NE(parse_options({"run", "wall", "--thread", "2"}).error().find("Did you mean --threads?"),
+              std::string::npos);
+    EXPECT_NE(parse_options({"rnu", "wall"}).error().find("Did you mean run?"), std::string::npos);
+    EXPECT_EQ(parse_options({"run", "wall", "--nonsense"}).error().find("Did you mean"), std::string::npos);
+}
+
 TEST(Options, ACookIsReadWithAllThatCanBeGiven) {
     const auto parsed = parse_options({"cook", "cow.obj", "--out", "cow.cmodel", "--material", "glass", "--thickness-m",
                                        "0.01", "--edge-m", "0.02", "--weld", "1e-7", "--seed", "7"});
@@ -159,8 +181,9 @@ TEST(Options, AnUnknownCommandIsCalledThatAndAllThatThereAreAreNamed) {
 }
 
 TEST(Options, WhatNothingTakesIsNamedWithTheHelpOfItsCommand) {
-    EXPECT_EQ(parse_options({"run", "vase", "--frmes", "3"}).error(),
-              "--frmes: there is no such option. sample_game run --help shows what can be given.");
+    EXPECT_EQ(
+        parse_options({"run", "vase", "--frmes", "3"}).error(),
+        "--frmes: there is no such option. Did you mean --frames? sample_game run --help shows what can be given.");
     EXPECT_EQ(parse_options({"run", "wall", "vase"}).error(),
               "vase: one argument too many. sample_game run --help shows what can be given.");
     EXPECT_EQ(parse_options({"frame", "by", "frame"}).error(),

@@ -75,6 +75,15 @@ struct AsleepEvent {
     Vec3 place;  // world, its centre of mass, m
 };
 
+/// Two that yield to nothing leave a body less room than it takes, and it can give way no further: no game of forces
+/// has an answer. It is held between them, in both of them alike, and goes free where it is once they leave it its
+/// room. Told once each time.
+struct SqueezedEvent {
+    BodyId body, by;  // by: the one of the two that moves
+    uint64_t body_user_data = 0, by_user_data = 0;
+    Vec3 place;  // world, its centre of mass, m
+};
+
 template <class E>
 struct EventSpan {
     const E* data = nullptr;
@@ -92,6 +101,7 @@ struct StepEvents {
     EventSpan<RefusedEvent> refused;
     EventSpan<FaultEvent> faults;
     EventSpan<AsleepEvent> asleep;
+    EventSpan<SqueezedEvent> squeezed;
 };
 
 }  // namespace cullet

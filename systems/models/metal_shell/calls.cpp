@@ -64,8 +64,24 @@ Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& s
             rows.materials.restitution[rows.structures.material[rows.bodies.structure[body]]];
     rows.bodies.is_breakable[body] = spawning.is_breakable;
     if (body < rows.metal_impacts.size()) rows.metal_impacts.clear_rows(body, 1);
+    if (body < rows.metal_presses.size()) rows.metal_presses.clear_rows(body, 1);
     if (!spawning.is_breakable) return ShellRoom{};
     return room_of_hit(rows, body);
+}
+
+bool note_press(BodyRows& rows, Row<Bodies> body, const Press& press) {
+    MetalPresses& presses = rows.metal_presses;
+    presses.reach(body + 1);
+    presses.is_on[body] = 1;
+    presses.depth[body] = static_cast<float>(press.depth);
+    presses.ahead[body] = static_cast<float>(press.ahead);
+    presses.force[body] = static_cast<float>(press.force);
+    return true;
+}
+
+float flat_width(const BodyRows& rows, Row<Bodies> body) {
+    constexpr float kWalls = 6;
+    return kWalls * rows.shells.thickness[rows.shell_of(rows.bodies.structure[body])];
 }
 
 const char* why_not_cut(const BodyRows& rows, Row<Bodies> body) {
@@ -76,6 +92,7 @@ const char* why_not_cut(const BodyRows& rows, Row<Bodies> body) {
 // Its rows of metal come with those of its shell.
 void inherit_nothing(BodyRows& rows, Row<Bodies>, Row<Bodies> piece) {
     if (piece < rows.metal_impacts.size()) rows.metal_impacts.clear_rows(piece, 1);
+    if (piece < rows.metal_presses.size()) rows.metal_presses.clear_rows(piece, 1);
 }
 
 WorkingCopy take_shell(BodyRows& rows, Row<Bodies> body) {

@@ -7,6 +7,10 @@ namespace cullet::metal_shell {
 /// The cooked shell, which bodies share; with pins, one of the body's own.
 Result<Row<Structures>> spawn_shell(ShellRows& rows, Row<Structures> source, const Spawning& spawning);
 Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning);
+/// What presses on it slowly dents it: the task that is opened for it finds this.
+bool note_press(BodyRows& rows, Row<Bodies> body, const Press& press);
+/// m: two walls, folded.
+float flat_width(const BodyRows& rows, Row<Bodies> body);
 const char* why_not_cut(const BodyRows& rows, Row<Bodies> body);
 /// A new piece was struck by nothing yet.
 void inherit_nothing(BodyRows& rows, Row<Bodies> parent, Row<Bodies> piece);

@@ -26,6 +26,7 @@ DamageModel metal_shell_model() {
         .spawns<spawn_body>()
         .spawns_own<spawn_shell>()
         .says_why_not_cut<why_not_cut>();
+    model.yields_to_presses<note_press, flat_width>();
     model.takes<take_shell, begin_run>().needs_room<room_of_hit, may_find_room>();
     model.checks<check_metal_shell>().checks_own<trouble_of_run, check_metal_rows>();
     model.passes_over<leaves_nothing>().inherits<inherit_nothing>();

@@ -160,7 +160,33 @@ void join_earlier(BodyRows& rows, Row<Tasks> task, Step step, const QueryIndex& 
     runs.radius[task] = impacts.radius[body];
 }
 
+// By a load that stands in the queue, and not by a blow.
+bool is_press(const BodyRows& rows, Row<Tasks> task) {
+    const Row<Bodies> body = rows.tasks.body[task];
+    return rows.tasks.load[task] > 0 && rows.tasks.contact_count[task] == 1 && body < rows.metal_presses.size() &&
+           rows.metal_presses.is_on[body];
+}
+
+// The dent begins where the sheet would be without who presses: that far behind his front.
+void gather_press(BodyRows& rows, Row<Tasks> task, const QueryIndex& index) {
+    MetalRuns& runs = rows.metal_runs;
+    const TaskContacts& contacts = rows.task_contacts;
+    const uint32_t c = rows.tasks.first_contact[task];
+    const Row<Bodies> striker = contacts.striker[c];
+    const Vec3d push(contacts.normal[c]);
+    const double depth = double{rows.metal_presses.depth[rows.tasks.body[task]]};
+    const Vec3d front = Vec3d(contacts.point[c]) + 0.5 * depth * push;
+    const bool is_round = contacts.striker_radius[c] > 0;
+    const StrikerShape shape = is_round ? StrikerShape::Sphere : lay_front(rows, index, task, striker, front, push);
+    runs.shape[task] = static_cast<uint8_t>(shape);
+    runs.point.set(task, (front - depth * push).to_float());
+    runs.push.set(task, push.to_float());
+    runs.radius[task] = contacts.striker_radius[c];
+    runs.striker[task] = striker;
+}
+
 void gather(BodyRows& rows, Row<Tasks> task, Step step, const Blows& blows, const QueryIndex& index) {
+    if (is_press(rows, task)) return gather_press(rows, task, index);
     MetalRuns& runs = rows.metal_runs;
     if (const Contact strongest = strongest_contact(rows, task); strongest.row != kNone)
         gather_contacts(rows, task, strongest, index);
@@ -259,8 +285,17 @@ void work_impact(Of<Tasks> task, BodyRows& rows, const Blows& blows) {
     ++tasks.steps_done[t];
     tasks.state[t] = static_cast<uint8_t>(TaskState::Whole);
     MetalRuns& runs = rows.metal_runs;
-    if (!(runs.energy[t] > 0)) return;
     const MetalView metal(rows, tasks.working[t]);
+    if (is_press(rows, t)) {
+        const MetalPresses& presses = rows.metal_presses;
+        const Row<Bodies> body = tasks.body[t];
+        const double depth = double{presses.depth[body]} + double{presses.ahead[body]};
+        const Dent dent = press_dent(metal, striker_of(rows, t), depth, double{presses.force[body]});
+        runs.depth[t] = static_cast<float>(dent.depth);
+        if (dent.kind != DentKind::None && bake_dent(metal)) tasks.state[t] = static_cast<uint8_t>(TaskState::Reshaped);
+        return;
+    }
+    if (!(runs.energy[t] > 0)) return;
     const Dent dent = work_dent(metal, striker_of(rows, t), runs.energy[t], runs.goes_on[t]);
     runs.depth[t] = static_cast<float>(dent.depth);
     runs.contact[t] = static_cast<float>(dent.contact);
@@ -275,6 +310,12 @@ void end_impacts(Serial, Step step, const Events<TaskEnded>& ended, BodyRows& ro
     const MetalRuns& runs = rows.metal_runs;
     for (const TaskEnded& e : ended) {
         const Row<Tasks> task = e.task;
+        if (is_press(rows, task)) {  // the shape that was before a blow is not to come back
+            const Row<Bodies> body = rows.tasks.body[task];
+            rows.metal_presses.clear_rows(body, 1);
+            if (body < impacts.size()) impacts.clear_rows(body, 1);
+            continue;
+        }
         if (!rows.metal_of(rows.tasks.source[task]).exists() || !(runs.energy[task] > 0)) continue;
         const Row<Bodies> body = rows.tasks.body[task], striker = runs.striker[task];
         if (rows.tasks.crack_count[task] > 0) {  // no shape before it that more of it could go on from

@@ -285,6 +285,24 @@ TEST_F(ImportSiblings, ColladaComesInMetresAndUprightWithNodesInNodes) {
         }
 }
 
+// assimp takes what it does not know for y.
+TEST_F(ImportSiblings, TheUpAxisOfColladaIsOneOfThreeHoweverItIsSpelled) {
+    DaeSettings s;
+    s.primitives = primitive("trifans", 5, kWalls) + primitive("trifans", 1, {kRoof});
+    for (const std::string up : {"z_up", " Z_UP ", "Z_up"}) {
+        s.up = up;
+        const Points points = moved([](Vec3d p) { return Vec3d{p.x, -p.z, p.y}; });
+        import_house(write("house.dae", dae(points, s)), up);
+    }
+    for (const std::string up : {"W_UP", "up", ""}) {
+        s.up = up;
+        EXPECT_NE(
+            import_refused(write("house.dae", dae(test::house_points(), s))).find("its up axis is \"" + up + "\""),
+            std::string::npos)
+            << up;
+    }
+}
+
 TEST_F(ImportSiblings, WhatAnFbxOrObjHoldsAndNoMeshWillIsSaid) {
     const FbxSettings s;
     std::string text = fbx(in_fbx_axes(s), s);

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kWidest = 0.59;       // of the support: from there on a blow on a closed shell crushes the body
 constexpr double kTears = 1.25;        // of the strain at which the material breaks
+constexpr double kPressedFold = 0.15;  // of half of the box diagonal: how far a slow press drags metal along, at least
 constexpr double kSmallStriker = 0.1;  // of half of the box diagonal, to each side
 constexpr double kFlatStriker = 0.25;  // of the box diagonal: what a flat striker is to a sheet that is open
 
@@ -184,6 +185,25 @@ Dent work_dent(const MetalView& metal, const Striker& striker, double energy, bo
     Dent dent = dent_sheet(metal, ball, place, plan, energy);
     if (!ends_within(striker) || !(ball.radius < place.support) || is_published(metal, kPublishedShape))
         dent.tearing = 0;
+    return dent;
+}
+
+Dent press_dent(const MetalView& metal, const Striker& striker, double depth, double force) {
+    begin(metal, false);
+    Dent dent;
+    const bool is_closed = metal.shells().crush_pressure[metal.row] > 0;
+    if (force > 0 && is_closed) depth = std::min(depth, plan_crush(metal, striker, force * depth).depth);
+    if (!(depth > 0)) return dent;
+    dent.kind = is_closed ? DentKind::Body : DentKind::Sheet;
+    dent.depth = dent.deep = depth;
+    const double fold = kPressedFold * double{metal.shells().half_diagonal[metal.row]};
+    raise_body(metal, striker, depth, std::max(kCrushReach * depth, fold));
+    place_field(metal, striker.push);
+    carry_creases(metal, depth, is_closed);
+    clear_striker(metal, striker, depth);
+    limit_stretch(metal, sheet_metal(metal.shell).break_strain, striker, depth);
+    if (!is_published(metal, kPublishedSprings)) turn_back(metal);
+    clear_striker(metal, striker, depth);
     return dent;
 }
 

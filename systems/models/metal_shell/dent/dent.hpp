@@ -38,6 +38,10 @@ bool is_elastic(const MetalView& metal, const Striker& striker, double energy);
 /// dent already, from the shape that was before it (MetalVertices.before). Else that shape is kept there.
 Dent work_dent(const MetalView& metal, const Striker& striker, double energy, bool goes_on = false);
 
+/// What presses slowly has come `depth` m into the sheet, or is about to: the sheet lies before it then. `force`: N, of
+/// who makes way itself, and comes only as far as that takes it; 0: nothing stops it.
+Dent press_dent(const MetalView& metal, const Striker& striker, double depth, double force);
+
 /// Vertices of the shell go to MetalVertices.place, with their normals and the sheet's inner side. Marks cells whose
 /// hulls are to be chosen anew, measures mass properties. False: nothing moved.
 bool bake_dent(const MetalView& metal);

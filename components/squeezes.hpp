@@ -1,0 +1,37 @@
+// Bodies that have less room than they take.
+#pragma once
+#include "components/bodies.hpp"
+
+namespace cullet {
+
+/// One row is one body that two who yield to nothing leave too little room, and that cannot give way. There are no rows
+/// while none is.
+struct Squeezes : Table<Squeezes> {
+    using Table::Table;
+    static constexpr const char* kName = "squeezes";
+    Column<Row<Bodies>> body{*this, "body"};
+    Column<Row<Bodies>> by{*this, "by"};               // who came, and moved
+    Column<Row<Bodies>> against{*this, "against"};     // who stands on the other side
+    Column<uint32_t> generation{*this, "generation"};  // of each, as a row is used again
+    Column<uint32_t> generation_by{*this, "generation_by"};
+    Column<uint32_t> generation_against{*this, "generation_against"};
+    Column<Vec3> push{*this, "push"};               // unit, world: from `by` to `against`
+    Column<float> room{*this, "room", "m"};         // that they leave along it
+    Column<float> share{*this, "share"};            // of the room, that the centre is away from `by`
+    Column<Vec3> point_by{*this, "point_by", "m"};  // where the body's centre is, in the frames of both
+    Column<Vec3> point_against{*this, "point_against", "m"};
+};
+
+/// Row `row` goes, the ones behind it keep their order.
+inline void remove_squeeze(Squeezes& squeezes, uint32_t row) {
+    const uint32_t behind = squeezes.size() - row - 1;
+    if (behind) squeezes.copy_rows(squeezes, row + 1, row, behind);
+    squeezes.truncate(squeezes.size() - 1);
+}
+inline bool is_squeezed(const Squeezes& squeezes, Row<Bodies> body) {
+    for (uint32_t row = 0; row < squeezes.size(); ++row)
+        if (squeezes.body[row] == body) return true;
+    return false;
+}
+
+}  // namespace cullet

@@ -1,0 +1,216 @@
+#include <algorithm>
+
+#include "components/body_id.hpp"
+#include "systems/bodies/thresholds.hpp"
+#include "systems/impacts/between_two.hpp"
+#include "systems/impacts/load_lists.hpp"
+#include "systems/models.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr double kSqueezed = 0.01;  // of the size: what cannot give way is held from there on
+// What yields in its shape does so until it is as flat as its model says, or as this share of its size.
+constexpr double kFlatShare = 0.03;
+
+double size_of(const Bodies& bodies, Row<Bodies> body) {
+    return 2 * double{bodies.radius[body]};
+}
+
+// m, that the body takes along a way; less than nothing where nobody knows its shape.
+double width_along(const BodyRows& rows, Row<Bodies> body, Vec3 way) {
+    const Bodies& bodies = rows.bodies;
+    if (bodies.is_sphere[body]) return size_of(bodies, body);
+    const Row<Structures> structure = bodies.structure[body];
+    if (!structure.exists()) return -1;
+    const Structures& structures = rows.structures;
+    const Vec3 own = rotate(conjugate(bodies.orientation[body]), way);
+    const uint32_t first = structures.points[structure].first;
+    double low = 1e30, high = -1e30;
+    const auto include = [&](uint32_t begin, uint32_t count) {
+        for (uint32_t p = first + begin; p < first + begin + count; ++p) {
+            const double at = dot(own, rows.hull_points.point[p]);
+            low = std::min(low, at), high = std::max(high, at);
+        }
+    };
+    if (structures.shape_points[structure]) include(0, structures.shape_points[structure]);
+    const Range cells = structures.cells[structure];
+    for (uint32_t c = cells.first; c < cells.first + cells.count && !structures.shape_points[structure]; ++c)
+        include(rows.cells.first_point[c], rows.cells.point_count[c]);
+    return high - low + 2 * double{structures.margin[structure]};
+}
+
+bool is_there(const Bodies& bodies, Row<Bodies> body, uint32_t generation) {
+    return body < bodies.size() && bodies.generation[body] == generation &&
+           static_cast<BodyKind>(bodies.kind[body]) != BodyKind::Free;
+}
+
+// J, of moving it so.
+double work_against(const Bodies& bodies, Row<Bodies> body, Vec3 way, Vec3 gravity) {
+    return -bodies.mass[body] * double{dot(gravity, way)};
+}
+
+struct Holding {
+    Step step;
+    RigidWorld& rigid;
+    SoftRows& rows;
+    DamageCounts& counts;
+
+    void begin(Row<Bodies> body, const Between& between, double width);
+    /// False: it has room again, or one of the three is gone.
+    bool go_on(uint32_t row);
+    void let_go(uint32_t row);
+    void put(Row<Bodies> body, Vec3 velocity, Vec3 way);
+};
+
+// Whatever moved it, it moves so from now on.
+void Holding::put(Row<Bodies> body, Vec3 velocity, Vec3 way) {
+    Bodies& bodies = rows.bodies;
+    const double square = double{dot(velocity, velocity)},
+                 before = double{dot(bodies.velocity[body], bodies.velocity[body])};
+    counts.work_from_outside += std::max(0.0, work_against(bodies, body, way, step.gravity)) +
+                                0.5 * bodies.mass[body] * std::max(0.0, square - before);
+    bodies.velocity.set(body, velocity);
+    bodies.spin.set(body, {});
+    rigid.set_motion(body, {velocity, {}});
+    if (way == Vec3{}) return;
+    rigid.carry(body, way);
+    bodies.position.set(body, rigid.pose(body).position);
+}
+
+void Holding::begin(Row<Bodies> body, const Between& between, double width) {
+    Squeezes& squeezes = rows.squeezes;
+    Bodies& bodies = rows.bodies;
+    const uint32_t row = squeezes.append(1);
+    if (row == kNone) return;
+    const Row<Bodies> by = between.by->toucher, against = between.against->toucher;
+    const Vec3 push = rotate(bodies.orientation[body], normalised(between.by->push - between.against->push).to_float());
+    const Vec3 centre = centre_of(bodies, body);
+    squeezes.clear_rows(row, 1);
+    squeezes.body[row] = body, squeezes.by[row] = by, squeezes.against[row] = against;
+    squeezes.generation[row] = bodies.generation[body];
+    squeezes.generation_by[row] = bodies.generation[by];
+    squeezes.generation_against[row] = bodies.generation[against];
+    squeezes.push.set(row, push);
+    squeezes.room[row] = static_cast<float>(width - between.sunk);
+    const double from = std::max(0.0, -dot(between.by->place, between.by->push)),
+                 to = std::max(0.0, -dot(between.against->place, between.against->push));
+    squeezes.share[row] = from + to > 0 ? static_cast<float>(from / (from + to)) : 0.5f;
+    squeezes.point_by.set(row, to_body(pose_of(bodies, by), centre));
+    squeezes.point_against.set(row, to_body(pose_of(bodies, against), centre));
+    rigid.hold(body);
+    ++bodies.hold_count[body];
+    bodies.is_asleep[body] = 0;
+    put(body, {}, {});
+}
+
+bool Holding::go_on(uint32_t row) {
+    Squeezes& squeezes = rows.squeezes;
+    Bodies& bodies = rows.bodies;
+    const Row<Bodies> body = squeezes.body[row], by = squeezes.by[row], against = squeezes.against[row];
+    if (!is_there(bodies, by, squeezes.generation_by[row]) ||
+        !is_there(bodies, against, squeezes.generation_against[row]) ||
+        !is_there(bodies, body, squeezes.generation[row]) || !is_dynamic(bodies, body))
+        return false;
+    rigid.hold(body);  // a hit that held it may have ended
+    const Vec3 centre = centre_of(bodies, body), push = squeezes.push[row];
+    const auto moved = [&](Row<Bodies> who, Vec3 point) {
+        const bool moves = static_cast<BodyKind>(bodies.kind[who]) != BodyKind::Static;
+        return moves ? to_world(pose_of(bodies, who), point) - centre : Vec3{};
+    };
+    const Vec3 way_by = moved(by, squeezes.point_by[row]), way_against = moved(against, squeezes.point_against[row]);
+    const double width = width_along(rows, body, push);
+    squeezes.room[row] += dot(push, way_against - way_by);
+    const float far = 2 * bodies.radius[body];
+    if (double{squeezes.room[row]} >= width || length(way_by) > far || length(way_against) > far) return false;
+    const float share = squeezes.share[row];
+    const Vec3 way = (1 - share) * way_by + share * way_against;
+    put(body, (1 / step.dt) * way, way);
+    const Vec3 now = centre_of(bodies, body);
+    squeezes.point_by.set(row, to_body(pose_of(bodies, by), now));
+    squeezes.point_against.set(row, to_body(pose_of(bodies, against), now));
+    return true;
+}
+
+// It goes free at rest. Behind a sheet it would be gone.
+void Holding::let_go(uint32_t row) {
+    Bodies& bodies = rows.bodies;
+    const Row<Bodies> body = rows.squeezes.body[row];
+    const bool is_there_still = is_there(bodies, body, rows.squeezes.generation[row]);
+    remove_squeeze(rows.squeezes, row);
+    if (!is_there_still || bodies.hold_count[body] == 0) return;
+    put(body, {}, {});
+    if (--bodies.hold_count[body] == 0) rigid.release(body);
+    const Vec3 before = centre_of(bodies, body);
+    rigid.set_pose(body, pose_of(bodies, body));
+    bodies.position.set(body, rigid.pose(body).position);
+    counts.work_from_outside +=
+        std::max(0.0, work_against(bodies, body, centre_of(bodies, body) - before, step.gravity));
+}
+
+bool is_anything_driven(const Bodies& bodies) {
+    for (uint32_t b = 0; b < bodies.size(); ++b)
+        if (static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Kinematic &&
+            (length(bodies.velocity[b]) > 0 || length(bodies.spin[b]) > 0))
+            return true;
+    return false;
+}
+
+// m, from which on it is held. None: it comes apart before.
+std::optional<double> least_sunk(const BodyRows& rows, const DamageLedger& ledger, Row<Bodies> body, double width) {
+    const Bodies& bodies = rows.bodies;
+    const double size = size_of(bodies, body);
+    const Row<Structures> structure = bodies.structure[body];
+    const bool gives_way = structure.exists() && bodies.is_breakable[body] &&
+                           calls_of(rows.structures, structure).bears_loads &&
+                           may_be_crushed(rows.structures, structure, ledger.settings);
+    if (!gives_way) return kSqueezed * size;
+    const std::optional<double> flat = ledger.models.least_width(rows, body);
+    if (!flat) return {};
+    return std::max(kSqueezed * size, width - std::max(*flat, kFlatShare * size));
+}
+
+SqueezedEvent event_of(const Bodies& bodies, Row<Bodies> body, Row<Bodies> by) {
+    return {body_id(bodies, body), body_id(bodies, by), bodies.user_data[body], bodies.user_data[by],
+            centre_of(bodies, body)};
+}
+
+}  // namespace
+
+void hold_squeezed(Serial, Step step, RigidWorld& rigid, SoftRows& rows, DamageLedger ledger, Arena& arena,
+                   Events<SqueezedEvent>& told) {
+    if (!rigid.knows_surfaces()) return;
+    Bodies& bodies = rows.bodies;
+    Holding holding{step, rigid, rows, ledger.counts};
+    for (uint32_t row = 0; row < rows.squeezes.size();) {
+        if (holding.go_on(row))
+            ++row;
+        else
+            holding.let_go(row);
+    }
+    if (!is_anything_driven(bodies)) return;
+    const LoadLists lists(bodies, rows.squeezes, rigid.loads(), step, arena);
+    const auto found = arena.take<BodyLoad>(lists.longest()), room = arena.take<BodyLoad>(lists.longest());
+    for (uint32_t b = 0; b < bodies.size(); ++b) {
+        const Row<Bodies> body(b);
+        if (!is_dynamic(bodies, body) || bodies.hold_count[b] || !lists.has_loads(body)) continue;
+        const auto loads = found.first(lists.take(body, found));
+        const Between between = between_two(bodies, body, loads, double{step.dt}, room);
+        if (!between.exists() || !between.is_driven || !between.against) continue;
+        if (!(between.sunk_in(double{step.dt}) > kSqueezed * size_of(bodies, body))) continue;
+        if (const Row<SoftBodies> soft = bodies.soft[body]; soft.exists()) {
+            rows.soft_bodies.is_called[soft] = 1;
+            continue;
+        }
+        const Vec3 push =
+            rotate(bodies.orientation[body], normalised(between.by->push - between.against->push).to_float());
+        const double width = width_along(rows, body, push);
+        const std::optional<double> least = least_sunk(rows, ledger, body, width);
+        if (width < 0 || !least || !(between.sunk_in(double{step.dt}) > *least)) continue;
+        holding.begin(body, between, width);
+        told.push(event_of(bodies, body, between.by->toucher));
+    }
+}
+
+}  // namespace cullet
