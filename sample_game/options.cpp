@@ -50,7 +50,7 @@ size_t letters_between(std::string_view a, std::string_view b) {
 
 /// " Did you mean --frames?", or nothing where no name is near.
 std::string guess(std::string_view word, const std::vector<std::string>& names) {
-    size_t least = 1 + std::max<size_t>(1, std::min<size_t>(3, word.size() / 3));
+    size_t least = 1 + std::clamp<size_t>(word.size() / 3, 2, 3);
     std::string nearest;
     for (const std::string& name : names)
         if (const size_t away = letters_between(word, name); away < least) least = away, nearest = name;

@@ -256,12 +256,12 @@ class ColladaListener : public XmlListener {
             say("its unit is \"" + one_line(metres, 40) + "\" m, which is no length");
     }
 
-    // assimp takes all but two spellings for y, without a word.
+    // assimp takes all but two spellings for y, without a word: blanks beside them make others.
     void take_up_axis() {
         is_up_axis_ = false;
         const std::string word(Words(text_).peek());
         constexpr std::array<const char*, 3> kKnown{"X_UP", "Y_UP", "Z_UP"};
-        if (std::find(kKnown.begin(), kKnown.end(), word) != kKnown.end()) return;
+        if (std::find(kKnown.begin(), kKnown.end(), text_) != kKnown.end()) return;
         for (const char* known : kKnown) {
             if (small_letters(word) != small_letters(known)) continue;
             drop(up_axis_byte_, first_byte() - up_axis_byte_);

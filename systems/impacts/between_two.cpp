@@ -40,6 +40,28 @@ bool is_borne(const BodyLoad& by, std::span<const BodyLoad> loads, double reach,
 
 }  // namespace
 
+double width_along(const BodyRows& rows, Row<Bodies> body, Vec3 way) {
+    const Bodies& bodies = rows.bodies;
+    if (bodies.is_sphere[body]) return 2 * double{bodies.radius[body]};
+    const Row<Structures> structure = bodies.structure[body];
+    if (!structure.exists()) return -1;
+    const Structures& structures = rows.structures;
+    const Vec3 own = rotate(conjugate(bodies.orientation[body]), way);
+    const uint32_t first = structures.points[structure].first;
+    double low = 1e30, high = -1e30;
+    const auto include = [&](uint32_t begin, uint32_t count) {
+        for (uint32_t p = first + begin; p < first + begin + count; ++p) {
+            const double at = dot(own, rows.hull_points.point[p]);
+            low = std::min(low, at), high = std::max(high, at);
+        }
+    };
+    if (structures.shape_points[structure]) include(0, structures.shape_points[structure]);
+    const Range cells = structures.cells[structure];
+    for (uint32_t c = cells.first; c < cells.first + cells.count && !structures.shape_points[structure]; ++c)
+        include(rows.cells.first_point[c], rows.cells.point_count[c]);
+    return high - low + 2 * double{structures.margin[structure]};
+}
+
 Between between_two(const Bodies& bodies, Row<Bodies> body, std::span<const BodyLoad> loads, double seconds,
                     std::span<BodyLoad> room) {
     const bool is_pinned = static_cast<BodyKind>(bodies.kind[body]) != BodyKind::Dynamic;

@@ -2,6 +2,7 @@
 #pragma once
 #include <span>
 
+#include "components/body_rows.hpp"
 #include "systems/impacts/overload.hpp"
 
 namespace cullet {
@@ -23,5 +24,8 @@ struct Between {
 /// body has no way out to turn or to slide.
 Between between_two(const Bodies& bodies, Row<Bodies> body, std::span<const BodyLoad> loads, double seconds,
                     std::span<BodyLoad> room);
+
+/// m, that the body takes along a way, a unit vector of the world; less than nothing where nobody knows its shape.
+double width_along(const BodyRows& rows, Row<Bodies> body, Vec3 way);
 
 }  // namespace cullet

@@ -18,29 +18,6 @@ double size_of(const Bodies& bodies, Row<Bodies> body) {
     return 2 * double{bodies.radius[body]};
 }
 
-// m, that the body takes along a way; less than nothing where nobody knows its shape.
-double width_along(const BodyRows& rows, Row<Bodies> body, Vec3 way) {
-    const Bodies& bodies = rows.bodies;
-    if (bodies.is_sphere[body]) return size_of(bodies, body);
-    const Row<Structures> structure = bodies.structure[body];
-    if (!structure.exists()) return -1;
-    const Structures& structures = rows.structures;
-    const Vec3 own = rotate(conjugate(bodies.orientation[body]), way);
-    const uint32_t first = structures.points[structure].first;
-    double low = 1e30, high = -1e30;
-    const auto include = [&](uint32_t begin, uint32_t count) {
-        for (uint32_t p = first + begin; p < first + begin + count; ++p) {
-            const double at = dot(own, rows.hull_points.point[p]);
-            low = std::min(low, at), high = std::max(high, at);
-        }
-    };
-    if (structures.shape_points[structure]) include(0, structures.shape_points[structure]);
-    const Range cells = structures.cells[structure];
-    for (uint32_t c = cells.first; c < cells.first + cells.count && !structures.shape_points[structure]; ++c)
-        include(rows.cells.first_point[c], rows.cells.point_count[c]);
-    return high - low + 2 * double{structures.margin[structure]};
-}
-
 bool is_there(const Bodies& bodies, Row<Bodies> body, uint32_t generation) {
     return body < bodies.size() && bodies.generation[body] == generation &&
            static_cast<BodyKind>(bodies.kind[body]) != BodyKind::Free;
@@ -123,7 +100,8 @@ bool Holding::go_on(uint32_t row) {
     const double width = width_along(rows, body, push);
     squeezes.room[row] += dot(push, way_against - way_by);
     const float far = 2 * bodies.radius[body];
-    if (double{squeezes.room[row]} >= width || length(way_by) > far || length(way_against) > far) return false;
+    const double slack = kSqueezed * size_of(bodies, body);  // so deep it may have been when it began
+    if (double{squeezes.room[row]} >= width + slack || length(way_by) > far || length(way_against) > far) return false;
     const float share = squeezes.share[row];
     const Vec3 way = (1 - share) * way_by + share * way_against;
     put(body, (1 / step.dt) * way, way);
@@ -157,18 +135,18 @@ bool is_anything_driven(const Bodies& bodies) {
     return false;
 }
 
-// m, from which on it is held. None: it comes apart before.
-std::optional<double> least_sunk(const BodyRows& rows, const DamageLedger& ledger, Row<Bodies> body, double width) {
+// It cannot give way, or not any more. What comes apart does so before; what yields in its shape has a dent to come.
+bool is_at_its_end(const BodyRows& rows, const DamageLedger& ledger, Row<Bodies> body, const Between& between,
+                   double width, double dt) {
     const Bodies& bodies = rows.bodies;
     const double size = size_of(bodies, body);
     const Row<Structures> structure = bodies.structure[body];
     const bool gives_way = structure.exists() && bodies.is_breakable[body] &&
                            calls_of(rows.structures, structure).bears_loads &&
                            may_be_crushed(rows.structures, structure, ledger.settings);
-    if (!gives_way) return kSqueezed * size;
+    if (!gives_way) return between.sunk_in(dt) > kSqueezed * size;
     const std::optional<double> flat = ledger.models.least_width(rows, body);
-    if (!flat) return {};
-    return std::max(kSqueezed * size, width - std::max(*flat, kFlatShare * size));
+    return flat && between.sunk > kSqueezed * size && width - between.sunk < std::max(*flat, kFlatShare * size);
 }
 
 SqueezedEvent event_of(const Bodies& bodies, Row<Bodies> body, Row<Bodies> by) {
@@ -206,8 +184,7 @@ void hold_squeezed(Serial, Step step, RigidWorld& rigid, SoftRows& rows, DamageL
         const Vec3 push =
             rotate(bodies.orientation[body], normalised(between.by->push - between.against->push).to_float());
         const double width = width_along(rows, body, push);
-        const std::optional<double> least = least_sunk(rows, ledger, body, width);
-        if (width < 0 || !least || !(between.sunk_in(double{step.dt}) > *least)) continue;
+        if (width < 0 || !is_at_its_end(rows, ledger, body, between, width, double{step.dt})) continue;
         holding.begin(body, between, width);
         told.push(event_of(bodies, body, between.by->toucher));
     }

@@ -43,8 +43,8 @@ constexpr uint8_t kMostRuns = 2, kMostDrivenRuns = 1;
 constexpr uint8_t kMostCuts = 2;
 // Of fewer elements a blow knocks out a corner, and what is left may have too few to break again.
 constexpr uint32_t kFewestForARun = 200;
-// A dent is laid once two would lie so deep in the sheet, as a share of its size, in so many steps.
-constexpr double kPressedDeep = 0.004, kPressedSteps = 2;
+// A dent is laid once two would lie so deep in the sheet, as a share of its size, after the next step.
+constexpr double kPressedDeep = 0.004;
 constexpr float kPressedSpeed = 1e-3f;  // m/s: what has none is a snap
 // After each such run the body is left alone twice as long, but no longer than 64 times; what is crushed 4 times.
 constexpr uint8_t kMostLoadRuns = 6, kMostCrushedRuns = 2;
@@ -353,12 +353,12 @@ void Weighing::give_way(const LoadedBody& of, const Overload& over, const RigidC
         told.refused.push(refused_event(bodies, body, "limits.queued_hits"));
 }
 
-// One dent after the other: each is there two steps after it was asked for.
+// One dent after the other: each is there before who presses has moved in the step after it was asked for.
 void Weighing::press(const LoadedBody& of, std::span<const BodyLoad> loads, std::span<BodyLoad> room) {
     Bodies& bodies = rows.bodies;
     const Row<Bodies> body = of.body;
     if (bodies.task[body] != kNone || has_waiting_load(queued, body)) return;
-    const double soon = kPressedSteps * double{step.dt};
+    const double soon = double{step.dt};
     const Between between = between_two(bodies, body, loads, soon, room);
     if (!between.exists() || !(between.sunk_in(soon) > kPressedDeep * 2 * double{bodies.radius[body]})) return;
     const bool is_by = !between.against || !between.against->stands ||
@@ -366,7 +366,9 @@ void Weighing::press(const LoadedBody& of, std::span<const BodyLoad> loads, std:
     const BodyLoad& at = is_by ? *between.by : *between.against;
     Press press;
     press.depth = std::max(0.0, at.depth);
-    press.ahead = is_by ? between.closing * soon : 0;
+    const double width = width_along(rows, body, rotate(bodies.orientation[body], at.push.to_float()));
+    const double left = width - between.sunk - rules.models.least_width(rows, body).value_or(0);
+    press.ahead = is_by ? std::clamp(between.closing * soon, 0.0, std::max(0.0, left)) : 0;
     Overload over;
     for (const BodyLoad& l : loads)
         if (l.toucher == at.toucher) over.load += l.force;
@@ -402,7 +404,7 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHit
         LoadedBody of{bodies, rows.structures, rows.shells, rows.vertices, rows.materials, rows.pin_boxes, body};
         if (lists.has_loads(body) && yields_in_shape(of, rules, rows))
             weighing.press(of, found.first(lists.take(body, found)), room.loads);
-        bool is_looked_at = lists.has_loads(body) && may_be_loaded(of, settings);
+        bool is_looked_at = lists.has_loads(body) && !yields_in_shape(of, rules, rows) && may_be_loaded(of, settings);
         of.yields_to_weights = !is_looked_at || !is_small(of, settings);
         is_looked_at = is_looked_at && (of.yields_to_weights || may_be_pressed(of, lists, is_driven));
         const bool was_woken = bodies.overloaded_steps[b] == kWasWoken;

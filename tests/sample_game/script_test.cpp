@@ -87,7 +87,7 @@ TEST(Script, AnErrorNamesFileLineWhatWasGivenAndWhatWasExpected) {
          "test.lua:1: at: 0 is frame 0, and this is already frame 2; expected a time to come"},
         {"game.on('boom', print)",
          "test.lua:1: game.on: there is no event \"boom\"; expected one of impact, "
-         "crack_started, fragment_born, debris, refused, fault, asleep"},
+         "crack_started, fragment_born, debris, refused, fault, asleep, squeezed"},
         {"game.floor()\ngame.key{name = 'x', default = 1}",
          "test.lua:2: game.key: this is a declaration; it goes before all calls that do something"},
         {"game.floor()\ngame.setting{hold_s = 0}",

@@ -140,6 +140,17 @@ Dent crush_body(const MetalView& metal, const Striker& striker, double energy) {
     return dent;
 }
 
+// What is pressed has somebody on its far side, too: nothing of it goes farther that way than it reached.
+void keep_before(const MetalView& metal, Vec3d push, double far_end) {
+    MetalVertices& vertices = metal.vertices();
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
+        const uint32_t row = metal.vertex(v);
+        const Vec3d place(vertices.place[row]);
+        const double over = dot(place, push) - far_end;
+        if (over > 0 && !metal.is_pinned(v)) vertices.place.set(row, (place - over * push).to_float());
+    }
+}
+
 }  // namespace
 
 SheetMetal sheet_metal(const ShellView& shell) {
@@ -196,6 +207,9 @@ Dent press_dent(const MetalView& metal, const Striker& striker, double depth, do
     if (!(depth > 0)) return dent;
     dent.kind = is_closed ? DentKind::Body : DentKind::Sheet;
     dent.depth = dent.deep = depth;
+    double far_end = -1e30;
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v)
+        far_end = std::max(far_end, dot(Vec3d(metal.vertices().start[metal.vertex(v)]), striker.push));
     const double fold = kPressedFold * double{metal.shells().half_diagonal[metal.row]};
     raise_body(metal, striker, depth, std::max(kCrushReach * depth, fold));
     place_field(metal, striker.push);
@@ -204,6 +218,7 @@ Dent press_dent(const MetalView& metal, const Striker& striker, double depth, do
     limit_stretch(metal, sheet_metal(metal.shell).break_strain, striker, depth);
     if (!is_published(metal, kPublishedSprings)) turn_back(metal);
     clear_striker(metal, striker, depth);
+    keep_before(metal, striker.push, far_end);
     return dent;
 }
 
