@@ -231,7 +231,8 @@ TEST(Squeezed, WhatCannotGiveWayStaysBetweenThemAndIsToldOf) {
                              draw.evenly_in_scale(0.01, 1), draw.within(0.2, 0.7), true};
         const double rate = kRates[draw.engine() % 3];
         const Squeezed was = play(thing, press, rate, 2 * seconds_of(thing, press) + 2);
-        const bool is_still = was.fastest < 0.3 + 1.1 * press.speed;
+        // It is free where it has room to fall by a hundredth of its size, or lies askew.
+        const bool is_still = was.fastest < 0.1 + std::sqrt(2 * 9.81 * 0.02 * thing.size) + 1.1 * press.speed;
         const bool is_back = was.end.low > -0.01 * thing.size && was.end.high < 1.05 * thing.size;
         if (was.failure.empty() && was.told == 1 && is_still && is_back) continue;
         ++wrong;
