@@ -18,7 +18,12 @@ struct LatticeRuns : Table<LatticeRuns> {
     Column<double> radius{*this, "radius", "m"};                   // of both surfaces; 1e30: flat on flat
     Column<double> striker_young{*this, "striker_young", "Pa"};
     Column<double> striker_poisson{*this, "striker_poisson"};
-    Column<Vec3d> spin{*this, "spin", "rad/s"};             // of the body
+    Column<Vec3d> spin{*this, "spin", "rad/s"};  // of the body
+    // An explosion in place of it: its reach, 0 without one; what it has at its centre; what it gives the whole body.
+    Column<Vec3d> blast_centre{*this, "blast_centre", "m"};
+    Column<double> blast_radius{*this, "blast_radius", "m"};
+    Column<double> blast_strength{*this, "blast_strength", "Pa s"};
+    Column<Vec3d> blast_impulse{*this, "blast_impulse", "N s"};
     Column<uint8_t> is_grounded{*this, "is_grounded"};      // what stands on something is held there
     Column<std::array<double, 4>> ground{*this, "ground"};  // and what lies below this plane, normal and place
 };

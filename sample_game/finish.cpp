@@ -61,6 +61,13 @@ float grain(Vec3 p, float size, float footprint, int octaves = 3) {
     return sum;
 }
 
+/// How a broken face is uneven, with bumps of `size` m: by its place alone, so that both sides of a crack match.
+Vec3 broken(const FinishPlace& place, float size, float strength) {
+    const Vec3 p = place.point;
+    return strength * Vec3{grain(p, size, place.footprint), grain({p.y + 3.1f, p.z, p.x}, size, place.footprint),
+                           grain({p.z, p.x + 5.7f, p.y}, size, place.footprint)};
+}
+
 /// Integral from 0 to x of the pattern that is 1 within `half` of every multiple of `period`.
 float line_integral(float x, float period, float half) {
     const float nearest = std::floor(x / period + 0.5f);
@@ -134,7 +141,10 @@ FinishLook brick(const FinishPlace& place) {
     const Vec3 mortar = (1 + 0.1f * rough) * Vec3{0.40f, 0.385f, 0.35f};
     FinishLook look;
     look.colour = between(colour, mortar, joint);
-    if (is_crack) return look;
+    if (is_crack) {
+        look.tilt = broken(place, 0.012f, 0.35f);
+        return look;
+    }
     // Joints lie deeper: edges of bricks are round.
     const float share = seen_share(0.004f, place.footprint);
     const auto bevel = [](float x, float period) {
@@ -154,6 +164,7 @@ FinishLook porcelain(const FinishPlace& place) {
     if (place.kind == FaceKind::Crack) {  // unglazed: dull, a little rough
         const float rough = grain(place.point, 0.002f, place.footprint);
         look.colour = (1 + 0.10f * rough) * Vec3{0.66f, 0.56f, 0.45f};
+        look.tilt = broken(place, 0.004f, 0.10f);
         return look;
     }
     const float cloud = noise(14.0f * place.point);
@@ -174,6 +185,7 @@ FinishLook concrete(const FinishPlace& place) {
         const float shows = seen_share(0.018f, place.footprint) * (stone > 0.55f ? 1.0f : 0.0f);
         look.colour = (1 + 0.15f * rough) *
                       between({0.47f, 0.45f, 0.42f}, (0.25f + 0.5f * stone) * Vec3{0.80f, 0.74f, 0.66f}, shows);
+        look.tilt = broken(place, 0.018f, 0.40f);
         return look;
     }
     const float pore = seen_share(0.008f, place.footprint) * std::max(0.0f, noise(90.0f * place.point) - 0.72f);

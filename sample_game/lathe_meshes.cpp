@@ -117,4 +117,54 @@ Mesh make_vase(float height, float edge, uint64_t seed) {
                    "vase");
 }
 
+Mesh make_solid_bowl(float width, float wall, uint32_t around) {
+    const double outer = 0.5 * static_cast<double>(width), thick = static_cast<double>(wall), inner = outer - thick,
+                 foot = 0.32 * outer, depth = 0.62 * outer;
+    const uint32_t count = std::clamp(around, 8u, 512u);
+    // Up the outside from the edge of the foot to the rim, over it and down the inside: a quarter of an ellipse each.
+    std::vector<ProfilePoint> rows;
+    const auto rise = [&](double radius, double low, double from, bool is_up) {
+        const uint32_t steps = std::max(4u, count / 6);
+        for (uint32_t k = 0; k <= steps; ++k) {
+            const double share = static_cast<double>(is_up ? k : steps - k) / steps;
+            double sine = 0, cosine = 1;
+            sine_cosine(kTurn / 4 * (from + (1 - from) * share), sine, cosine);
+            rows.push_back({radius * sine, low + (depth - low) * (1 - cosine)});
+        }
+    };
+    rise(outer, -0.1 * depth, 0.28, true);
+    rows.push_back({0.5 * (outer + inner), depth + 0.4 * thick});
+    rise(inner, thick, 0.1, false);
+    const double lowest = rows.front().y;
+    MeshDraft surface;
+    const auto add_round = [&](ProfilePoint p, double turned) {
+        std::vector<uint32_t> ids;
+        for (uint32_t i = 0; i < count; ++i) {
+            double sine = 0, cosine = 1;
+            sine_cosine(kTurn * (i + turned) / count, sine, cosine);
+            ids.push_back(static_cast<uint32_t>(surface.points.size()));
+            surface.points.push_back({p.radius * cosine, p.y - lowest, p.radius * sine});
+        }
+        return ids;
+    };
+    const auto close = [&](double y, const std::vector<uint32_t>& round, bool is_first) {
+        const auto pole = static_cast<uint32_t>(surface.points.size());
+        surface.points.push_back({0, y - lowest, 0});
+        for (uint32_t i = 0; i < count; ++i) {
+            const uint32_t a = round[i], b = round[(i + 1) % count];
+            surface.triangles.push_back(is_first ? Triangle{pole, a, b} : Triangle{pole, b, a});
+        }
+    };
+    std::vector<uint32_t> before = add_round({foot, lowest}, 0);
+    close(lowest, before, true);
+    for (size_t r = 0; r < rows.size(); ++r) {
+        if (r == 0 && !(rows[0].radius > foot)) continue;
+        const std::vector<uint32_t> next = add_round(rows[r], 0.5 * static_cast<double>(r % 2 + 1));
+        stitch_rows(surface, before, next, true);
+        before = next;
+    }
+    close(rows.back().y, before, false);
+    return to_mesh(surface, "bowl");
+}
+
 }  // namespace cullet

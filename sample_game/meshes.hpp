@@ -18,6 +18,8 @@ namespace cullet {
 Mesh make_vase(float height = 0.30f, float edge = 0.0075f, uint64_t seed = 1);
 /// A closed hollow figure, snout toward +x, feet at y = 0: for scenes that drop something when no model is given.
 Mesh make_piggy_bank(float length = 0.40f, float edge = 0.0098f, uint64_t seed = 1);
+/// A closed bowl with both of its walls, open above, its foot at y = 0; so many points round it.
+Mesh make_solid_bowl(float width = 0.24f, float wall = 0.006f, uint32_t around = 72);
 /// A flat sheet that faces +z: x from -width/2 to width/2, y from 0 to height, z = 0. Straight borders.
 Mesh make_wall(float width = 2.4f, float height = 1.8f, float edge = 0.078f, uint64_t seed = 1);
 /// Of the edge: how far points of sheets are moved off their rows, each way, as on lathes.

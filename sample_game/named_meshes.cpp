@@ -4,6 +4,7 @@ namespace cullet {
 
 Mesh make_mesh_named(const std::string& name, uint64_t seed) {
     if (name == "vase") return make_vase(0.30f, 0.0075f, seed);
+    if (name == "bowl") return make_solid_bowl();
     if (name == "piggy_bank") return make_piggy_bank(0.40f, 0.0098f, seed);
     if (name == "wall") return make_wall(2.4f, 1.8f, 0.078f, seed);
     if (name == "pane") return make_pane(0.5f, 0.010f, seed);

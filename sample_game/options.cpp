@@ -92,7 +92,7 @@ void add_run(CLI::App& app, RunOptions& run) {
         ->add_option(
             "--mesh", run.mesh,
             "A model file for scenes that take one, in any format of docs/importing.md; or vase, pig, cow, castle, "
-            "castle_fine, slab, piggy_bank, wall, pane, car, drum")
+            "castle_fine, slab, piggy_bank, wall, pane, car, drum, bowl")
         ->check(CLI::Validator(
             [](const std::string& name) { return std::string(name.empty() ? "the name is empty; give a file" : ""); },
             ""));
@@ -312,7 +312,7 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     CLI::App* truth = app.add_subcommand("truth",
                                          "Prints the verification cases of a method: figure, bounds, verdict; the "
                                          "last, speeds of first cracks and pieces, takes minutes");
-    truth->add_option("model", options.truth.model, "thick_shell or metal_shell")->required();
+    truth->add_option("model", options.truth.model, "thick_shell, metal_shell or lattice")->required();
     truth
         ->add_option("--placements", options.truth.placements,
                      "Seeded placements of each scene for the medians; the bands are judged on the first 20")

@@ -10,9 +10,9 @@
 namespace cullet {
 
 int run_truth(const std::string& model, const TruthSettings& given) {
-    const bool is_metal = model == "metal_shell";
-    if (model != "thick_shell" && !is_metal) {
-        fmt::print(stderr, "truth {}: not known; use thick_shell or metal_shell.\n", model);
+    const bool is_thick = model == "thick_shell", is_metal = model == "metal_shell";
+    if (!is_thick && !is_metal && model != "lattice") {
+        fmt::print(stderr, "truth {}: not known; use thick_shell, metal_shell or lattice.\n", model);
         return 2;
     }
     std::error_code error;
@@ -30,10 +30,10 @@ int run_truth(const std::string& model, const TruthSettings& given) {
         print_verdicts(number, name, verdicts, faults);
         summaries.push_back({number, name, verdicts});
     };
-    for (const TruthCase& one : is_metal ? metal_truth_cases() : truth_cases())
+    for (const TruthCase& one : is_metal ? metal_truth_cases() : is_thick ? truth_cases() : lattice_truth_cases())
         tell(one.number, one.name, one.measure());
     nlohmann::json json;
-    if (!is_metal) {
+    if (is_thick) {
         fmt::print("case 9 is measured: the hidden run\n");
         Result<HitTruth> hits = tell_hits(settings);
         if (!hits.ok()) {

@@ -14,8 +14,8 @@ struct Verdict {
     bool is_met() const { return value >= low && value <= high; }
 };
 
-/// One case of `sample_game truth MODEL`, seconds each. A case more is a line in truth_cases.cpp, or of metal in
-/// metal/truth_metal.cpp.
+/// One case of `sample_game truth MODEL`, seconds each. A case more is a line in truth_cases.cpp, of metal in
+/// metal/truth_metal.cpp, of solids in truth_lattice.cpp.
 struct TruthCase {
     int number;  // of the method note's section 15
     const char* name;
@@ -23,6 +23,7 @@ struct TruthCase {
 };
 std::span<const TruthCase> truth_cases();
 std::span<const TruthCase> metal_truth_cases();
+std::span<const TruthCase> lattice_truth_cases();
 
 std::vector<Verdict> stretched_strip();
 std::vector<Verdict> cantilever();

@@ -23,7 +23,7 @@ if [[ ${CULLET_FILMS:-1} != 0 ]]; then
 fi
 build/release/sample_game run show_reel --out "$out" --contact-sheet "${size[@]}" "${films[@]}" "$@"
 # What dents and does not break, and what is solid.
-for scene in panel drum car shots statue table; do
+for scene in panel drum car shots statue table bowl museum; do
     build/release/sample_game run $scene --hash off --out "$out/$scene" --contact-sheet --width 640 "${films[@]}"
 done
 
@@ -42,6 +42,8 @@ What there is to see, in $PWD/$out:
   shots/sheet.png  balls go through a sheet of steel and leave holes with petals; one goes into the side of a drum
   statue/sheet.png a ball hits a solid statue of stone on its plinth: head and legs come off, and fall to the floor
   table/sheet.png  a ball falls on a table top of solid glass, which comes down in large pieces
+  bowl/sheet.png   a bowl of solid porcelain falls on the floor: shards with rim and foot
+  museum/sheet.png a stone statue, vases, a steel drum and a brick wall in one room: a ball, an explosion, a cut
   */film.mp4       each as a film
   */report.html    each run on a page: times of its frames, pictures, notes
   */report.json    each run in numbers: frame times, hits, fragments, mass, hash (README.md says how to read it)

@@ -63,6 +63,15 @@ int wall(lua_State* lua) {
                                given.real("edge", kEdge, 0.078), seed_of(lua, given)));
 }
 
+int bowl(lua_State* lua) {
+    script_of(lua).act(lua);
+    const Arguments given(lua, "game.mesh.bowl", {"width", "wall", "around"}, true);
+    const float width = given.real("width", kSide, 0.24);
+    return made(lua, make_solid_bowl(width, given.real("wall", kSide, 0.006),
+                               static_cast<uint32_t>(
+                                   given.number("around", {"a whole number of points from 8 to 512", 8, 512}, 72))));
+}
+
 int pane(lua_State* lua) {
     script_of(lua).act(lua);
     const Arguments given(lua, "game.mesh.pane", {"side", "edge", "seed"}, true);
@@ -260,7 +269,7 @@ void open_meshes(lua_State* lua) {
                                          {"file", file},     {"house", house},
                                          {"tower", tower},   {"car", car},
                                          {"drum", drum},     {"pole", pole},
-                                         {nullptr, nullptr}};
+                                         {"bowl", bowl},     {nullptr, nullptr}};
     lua_newtable(lua);
     add_calls(lua, calls);
     guard_names(lua, "game.mesh.");

@@ -23,16 +23,12 @@ struct Beam {
         const PrincipalAxes principal = principal_axes(of.bodies.inertia[of.body]);
         const Vec3 unit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         for (int i = 0; i < 3; ++i) axis[i] = Vec3d(rotate(principal.axes, unit[i])), low[i] = 1e30, high[i] = -1e30;
-        const Range rows = of.shells.vertices[of.shell()];
-        for (uint32_t v = rows.first; v < rows.first + rows.count; ++v) {
-            if (of.vertices.element[v] == kNone) continue;
-            const Vec3d outer = Vec3d(of.vertices.rest[v]) - of.bodies.centre[of.body];
-            const Vec3d inner = outer + double{of.vertices.depth[v]} * Vec3d(of.vertices.inward[v]);
+        of.for_each_corner([&](Vec3d corner) {
             for (int i = 0; i < 3; ++i) {
-                const double p = dot(axis[i], outer), q = dot(axis[i], inner);
-                low[i] = std::min({low[i], p, q}), high[i] = std::max({high[i], p, q});
+                const double p = dot(axis[i], corner);
+                low[i] = std::min(low[i], p), high[i] = std::max(high[i], p);
             }
-        }
+        });
         const double moment[3] = {principal.moments.x, principal.moments.y, principal.moments.z};
         const double volume = of.solid_volume(), sum = moment[0] + moment[1] + moment[2];
         for (int i = 0; i < 3; ++i)
@@ -119,6 +115,10 @@ struct Span {
 class HeldParts {
  public:
     HeldParts(const LoadedBody& of, Vec3d axis) {
+        if (of.is_solid()) {
+            add_boxes(of, axis);
+            return;
+        }
         const Range rows = of.shells.vertices[of.shell()];
         for (uint32_t v = rows.first; v < rows.first + rows.count; ++v)
             if (of.vertices.element[v] != kNone && of.vertices.is_pinned[v]) add(held_by(of, axis, v));
@@ -139,6 +139,19 @@ class HeldParts {
     Held parts_[kMost];
     uint32_t count_ = 0;
 
+    // A solid is held as far as the boxes go, wherever its mesh has points.
+    void add_boxes(const LoadedBody& of, Vec3d axis) {
+        const Range boxes = of.bodies.pins[of.body];
+        for (uint32_t p = boxes.first; p < boxes.first + boxes.count; ++p) add(reach_of(of, axis, p));
+    }
+    static Held reach_of(const LoadedBody& of, Vec3d axis, uint32_t box) {
+        const Vec3 low = of.pin_boxes.low[box], high = of.pin_boxes.high[box];
+        const Vec3d half = 0.5 * (Vec3d(high) - Vec3d(low));
+        const double middle = dot(axis, 0.5 * (Vec3d(low) + Vec3d(high)));
+        const double reach = std::fabs(axis.x) * half.x + std::fabs(axis.y) * half.y + std::fabs(axis.z) * half.z;
+        return {middle - reach, middle + reach};
+    }
+
     // A pinned vertex, and all of the boxes around it: what lies in a wall is held as far as the wall goes.
     static Held held_by(const LoadedBody& of, Vec3d axis, uint32_t vertex) {
         const Vec3 at = of.vertices.rest[vertex];
@@ -146,11 +159,8 @@ class HeldParts {
         const Range boxes = of.bodies.pins[of.body];
         for (uint32_t p = boxes.first; p < boxes.first + boxes.count; ++p) {
             if (!is_held(of.pin_boxes, Range{p, 1, 1}, at)) continue;
-            const Vec3 low = of.pin_boxes.low[p], high = of.pin_boxes.high[p];
-            const Vec3d half = 0.5 * (Vec3d(high) - Vec3d(low));
-            const double middle = dot(axis, 0.5 * (Vec3d(low) + Vec3d(high)));
-            const double reach = std::fabs(axis.x) * half.x + std::fabs(axis.y) * half.y + std::fabs(axis.z) * half.z;
-            held = {std::min(held.low, middle - reach), std::max(held.high, middle + reach)};
+            const Held box = reach_of(of, axis, p);
+            held = {std::min(held.low, box.low), std::max(held.high, box.high)};
         }
         return held;
     }
@@ -194,7 +204,7 @@ Moment pinned_moment(const LoadedBody& of, const Beam& beam, const HeldParts& he
 // shapes of that wall and size are stiffer.
 double least_bending_force(const LoadedBody& of) {
     const double size = std::max(2 * double{of.bodies.radius[of.body]}, 1e-9);
-    return 4 * of.strength() * of.solid_volume() * of.shells.thickness[of.shell()] / (6 * size * size);
+    return 4 * of.strength() * of.solid_volume() * of.wall() / (6 * size * size);
 }
 
 void bend(const LoadedBody& of, std::span<const BodyLoad> loads, std::span<AxisForce> forces, const Underlay* under,

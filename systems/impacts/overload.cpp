@@ -30,13 +30,27 @@ constexpr double kSolidWalls = 2.5;
 // such a one and a floor is crushed, slips away, or stands in both.
 constexpr double kOutweighs = 20;
 
+// Pa, of brittle things, when nothing around confines what is crushed.
+constexpr double kCrushOverPull = 10;
+
 /// N along and against a direction: what pushes, and what could be borne.
 struct Sides {
     double along = 0, against = 0, bears_along = 0, bears_against = 0;
     double squeeze() const { return std::max(std::min(along, bears_against), std::min(against, bears_along)); }
 };
 
-void squeeze(bool is_pinned, std::span<const BodyLoad> loads, double borne, Overload& worst) {
+// A solid is crushed where it is squeezed with more than its strength on its mean section: blows, which tell what a
+// body bears, only crack it. A shell crumples first.
+double crushed_at(const LoadedBody& of, Vec3d push) {
+    double low = 0, high = 0;
+    of.for_each_corner(
+        [&](Vec3d corner) { low = std::min(low, dot(push, corner)), high = std::max(high, dot(push, corner)); });
+    const double hardness = of.strength_share() * of.materials.crush_strength[of.material()];
+    return std::min(hardness, kCrushOverPull * of.strength()) * of.solid_volume() / std::max(high - low, 1e-9);
+}
+
+void squeeze(const LoadedBody& body, std::span<const BodyLoad> loads, double cracks_at, Overload& worst) {
+    const bool is_pinned = body.is_pinned();
     Vec3d ways[kMostWays];
     uint32_t count = 0;
     for (const BodyLoad& of : loads) {
@@ -51,6 +65,7 @@ void squeeze(bool is_pinned, std::span<const BodyLoad> loads, double borne, Over
             (c > 0 ? s.bears_along : s.bears_against) += std::fabs(c) * l.bears * l.spread;
         }
         const double force = s.squeeze();
+        const double borne = body.is_solid() ? std::min(cracks_at, crushed_at(body, ways[count - 1])) : cracks_at;
         worst.load = std::max(worst.load, force);
         if (force > worst.share * borne) worst.share = force / borne;
     }
@@ -70,7 +85,7 @@ const BodyLoad& hardest(std::span<const BodyLoad> loads) {
 }
 
 ClosingBody closing_body(const LoadedBody& of) {
-    const double wall = of.shells.thickness[of.shell()], radius = of.bodies.radius[of.body];
+    const double wall = of.wall(), radius = of.bodies.radius[of.body];
     return {of.is_pinned(), radius, std::min(kDeepInWall * wall, 2 * kDeepInAll * radius)};
 }
 
@@ -111,7 +126,7 @@ void spread_flat(const LoadedBody& of, std::span<BodyLoad> loads, double borne) 
 
 // Which loads go straight through the body into who is backed there; of a pinned one, who bears them bends it no more.
 void find_laid(const LoadedBody& of, const Underlay& under, double near, std::span<BodyLoad> loads, double borne) {
-    const double solid = kSolidWalls * of.shells.thickness[of.shell()] + near;
+    const double solid = kSolidWalls * of.wall() + near;
     bool is_solid = true;
     for (BodyLoad& l : loads) {
         if (l.is_backed) continue;
@@ -132,7 +147,7 @@ void find_laid(const LoadedBody& of, const Underlay& under, double near, std::sp
 // Squeezed or bent. Without `under` all loads bend.
 void press(const LoadedBody& of, std::span<BodyLoad> loads, Vec3d weight, const OverloadRoom& room,
            const Underlay* under, Overload& worst) {
-    squeeze(of.is_pinned(), loads, force_borne(of), worst);
+    squeeze(of, loads, force_borne(of), worst);
     if (under) {
         const auto left = std::remove_if(loads.begin(), loads.end(), [](const BodyLoad& l) { return l.is_laid; });
         loads = loads.first(static_cast<size_t>(left - loads.begin()));
@@ -206,8 +221,8 @@ Overload overload_of(const LoadedBody& of, const RigidWorld& rigid, std::span<Bo
     press(of, loads, weight, room, nullptr, worst);
     if (worst.is_driven || !(worst.share > 1) || !rigid.knows_surfaces()) return worst;
     // Few come so far. Contacts tell only a few places of what lies under it.
-    const double near = std::max(kNearMargins * double{of.structures.margin[of.structure()]},
-                                 kNearBelow * 2 * double{of.shells.thickness[of.shell()]});
+    const double near =
+        std::max(kNearMargins * double{of.structures.margin[of.structure()]}, kNearBelow * 2 * of.wall());
     const Underlay under(rigid, of.bodies, of.body, near);
     find_laid(of, under, near, as_solved, force_borne(of));
     worst = at_rest;

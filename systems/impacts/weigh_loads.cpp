@@ -70,7 +70,7 @@ bool is_deep(const Bodies& bodies, Row<Bodies> body, double way) {
     return way > kDeepest * 2 * bodies.radius[body];
 }
 bool is_sunk(const LoadedBody& of, double deep) {
-    return deep > kSunkInAll * 2 * of.bodies.radius[of.body] && deep > kSunkInWall * of.shells.thickness[of.shell()];
+    return deep > kSunkInAll * 2 * of.bodies.radius[of.body] && deep > kSunkInWall * of.wall();
 }
 
 // Whether there is anything to look at.
@@ -401,7 +401,14 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHit
     const bool is_driven = is_anything_driven(bodies);
     for (uint32_t b = 0; b < bodies.size(); ++b) {
         const Row<Bodies> body(b);
-        LoadedBody of{bodies, rows.structures, rows.shells, rows.vertices, rows.materials, rows.pin_boxes, body};
+        LoadedBody of{bodies,
+                      rows.structures,
+                      rows.shells,
+                      rows.vertices,
+                      rows.materials,
+                      rows.pin_boxes,
+                      {rows.solids, rows.cooked_solids, rows.skin_points},
+                      body};
         if (lists.has_loads(body) && yields_in_shape(of, rules, rows))
             weighing.press(of, found.first(lists.take(body, found)), room.loads);
         bool is_looked_at = lists.has_loads(body) && !yields_in_shape(of, rules, rows) && may_be_loaded(of, settings);

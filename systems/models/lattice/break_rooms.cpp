@@ -5,6 +5,7 @@
 #include "systems/models/lattice/gather_blow.hpp"
 #include "systems/models/lattice/loop.hpp"
 #include "systems/models/lattice/shared/brittle.hpp"
+#include "systems/structures/shell/pin_boxes.hpp"
 #include "systems/structures/tetrahedra/solid_rows.hpp"
 
 namespace cullet::lattice {
@@ -65,6 +66,7 @@ const KnownSolid& know(const SolidRows& rows, SolidRooms& all, Row<CookedSolids>
     if (rows.cooked_solids.strength_modulus[row] > 0)
         scatter_strength(breakable->body, double{rows.cooked_solids.strength_modulus[row]},
                          rows.cooked_solids.strength_seed[row]);
+    give_normals(breakable->body, made->cooked.mesh);
     breakable->points = find_lattice_points(made->cooked.solid.lattice);
     made->of_model = std::move(breakable);
     all.known.push_back(std::move(made));
@@ -79,6 +81,39 @@ void list_own(const SolidRows& rows, Row<Structures> structure, std::vector<uint
     own.assign(rows.cooked_solids.cells[rows.solids.cooked[solid]].count, 0);
     const Range members = rows.solids.members[solid];
     for (uint32_t r = members.first; r < members.first + members.count; ++r) own[rows.solid_members.cell[r]] = 1;
+}
+
+/// Patches that the body's pins hold; none listed: it has none.
+void list_held(const BodyRows& rows, Row<Bodies> body, const KnownSolid& known, std::vector<uint8_t>& held) {
+    held.clear();
+    if (!rows.bodies.has_pins[body]) return;
+    for (const SurfacePatch& patch : known.cooked.solid.patches)
+        held.push_back(is_held(rows.pin_boxes, rows.bodies.pins[body], patch.centroid.to_float()));
+}
+
+/// What pins hold of the pieces, and what an explosion gives them: all of what it gives the body.
+void tell_pieces(const RunRows& rows, Row<Tasks> task, const KnownSolid& known, const RoomOfRun& room,
+                 BrokenSolid& broken) {
+    const auto& patches = known.cooked.solid.patches;
+    const auto& normals = breakable_of(known).body.patch_normals;
+    const SolidBlow blow = blow_of(rows.lattice_runs, task);
+    Vec3d missing = rows.lattice_runs.blast_impulse[task];
+    double volume = 0;
+    for (uint32_t i = 0; i < patches.size(); ++i) {
+        const uint32_t number = broken.piece_of[patches[i].cell];
+        if (number == kNone) continue;
+        BrokenPiece& piece = broken.pieces[number];
+        piece.has_pins = piece.has_pins || (!room.held.empty() && room.held[i]);
+        if (!(blow.blast.radius > 0)) continue;
+        const Vec3d impulse = blow.blast.impulse(patches[i].centroid, normals[i], patches[i].area);
+        piece.impulse += impulse;
+        piece.turning += cross(patches[i].centroid - piece.centre, impulse);
+        missing = missing - impulse;
+    }
+    if (!(blow.blast.radius > 0)) return;
+    // Faces of earlier breaks have no patches.
+    for (const BrokenPiece& piece : broken.pieces) volume += piece.volume;
+    for (BrokenPiece& piece : broken.pieces) piece.impulse += (piece.volume / volume) * missing;
 }
 
 /// Pieces that cracks made: teeth go, islands go, faces become smooth. Points that earlier breaks moved stay there.
@@ -145,6 +180,7 @@ RunStage lay_skin(const RunRows& rows, Row<Tasks> task, const KnownSolid& known,
     if (room.piece < room.piece_count) return RunStage::Skins;
     room.cut.reset();
     lay_touches(known.cooked.solid, broken);
+    tell_pieces(rows, task, known, room, broken);
     room.piece = 0;
     return broken.pieces.size() > 1 ? RunStage::Hulls : RunStage::Done;
 }
@@ -235,10 +271,18 @@ void prepare_rooms(const RunRows& rows, Row<Structures> structure) {
         }
         room.broken.reserve(known.cooked);
         room_of(room).own.reserve(cells), room_of(room).labels.reserve(cells);
+        room_of(room).held.reserve(known.cooked.solid.patches.size());
     }
 }
 
-void begin_run(const RunRows& rows, Row<Tasks> task) {
+bool is_pinned_anywhere(const BodyRows& rows, Row<Bodies> body) {
+    const KnownSolid& known = known_of(rows, rows.bodies.structure[body]);
+    return std::any_of(
+        known.cooked.solid.patches.begin(), known.cooked.solid.patches.end(),
+        [&](const SurfacePatch& p) { return is_held(rows.pin_boxes, rows.bodies.pins[body], p.centroid.to_float()); });
+}
+
+void begin_run(const BodyRows& rows, Row<Tasks> task) {
     const Row<Structures> source = rows.tasks.source[task];
     BreakingRoom& own = breaking(rows, task);
     const KnownSolid& known = known_of(rows, source);
@@ -256,7 +300,10 @@ void begin_run(const RunRows& rows, Row<Tasks> task) {
     list_own(rows, source, room.own);
     BrittleSolid brittle = brittle_of(rows, rows.structures.material[source]);
     brittle.tensile_strength *= double{rows.tasks.strength_scale[task]};
-    begin_break(breakable.body, brittle, blow_of(rows.lattice_runs, task), {}, {}, room.run, room.own);
+    CrackRules rules;
+    rules.must_break = rows.tasks.load[task] > 0;
+    list_held(rows, rows.tasks.body[task], known, room.held);
+    begin_break(breakable.body, brittle, blow_of(rows.lattice_runs, task), rules, room.held, room.run, room.own);
     room.stage = RunStage::Solve;
 }
 

@@ -8,10 +8,12 @@
 namespace cullet::lattice {
 
 Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning) {
-    if (spawning.settings.pin_count > 0)
-        return Error{"a solid has no pins yet; spawn it without, and let it stand on what is fixed."};
     rows.bodies.is_breakable[body] = spawning.is_breakable;
-    if (spawning.is_breakable) prepare_rooms(rows, rows.bodies.structure[body]);
+    const uint32_t pins = spawning.settings.pin_count;
+    if (spawning.is_breakable || pins > 0) prepare_rooms(rows, rows.bodies.structure[body]);
+    if (pins > 0 && !is_pinned_anywhere(rows, body))
+        return Error{"no part of the surface lies in any of the " + std::to_string(pins) +
+                     " pin boxes; they are in body coordinates, in metres."};
     return room_of_hit(rows, body);
 }
 
@@ -52,21 +54,20 @@ bool may_find_room([[maybe_unused]] const BodyRows& rows, Row<Bodies>) {
     return true;
 }
 
-void restore_run(RunRows& rows, Row<Tasks> task) {
+// Its body makes it again, and knows where its pins are.
+void restore_run([[maybe_unused]] RunRows& rows, Row<Tasks>) {}
+
+void restore_body(BodyRows& rows, Row<Bodies> body) {
+    const Row<Structures> structure = rows.bodies.structure[body];
+    if (rows.bodies.is_breakable[body]) prepare_rooms(rows, structure);
+    const Row<Tasks> task(rows.bodies.task[body]);
+    if (!task.exists()) return;
     prepare_rooms(rows, rows.tasks.source[task]);
     if (!take_room(rows, task)) return;
     begin_run(rows, task);
     uint64_t units = 0;  // paid already
     for (uint32_t step = 0; step < rows.tasks.steps_done[task]; ++step)
         if (advance_run(rows, task, units)) return;
-}
-
-void restore_body(BodyRows& rows, Row<Bodies> body) {
-    const Row<Structures> structure = rows.bodies.structure[body];
-    if (rows.bodies.is_breakable[body]) prepare_rooms(rows, structure);
-    // Of one that is done and waits for its touch.
-    const Row<Tasks> task(rows.bodies.task[body]);
-    if (task.exists() && !room_of_task(rows, task)) restore_run(rows, task);
 }
 
 std::string trouble_of_run(const RunRows& rows, uint32_t task) {

@@ -12,7 +12,7 @@ constexpr double kFlatRadius = 0.5;  // of the body's reach: the corner that mee
 
 }  // namespace
 
-bool gather_blow(BodyRows& rows, Row<Tasks> task) {
+bool gather_blow(BodyRows& rows, const Blows& blows, Row<Tasks> task) {
     rows.lattice_runs.reach(task + 1);
     rows.lattice_results.reach(task + 1);
     rows.lattice_runs.clear_rows(task, 1);
@@ -47,7 +47,20 @@ bool gather_blow(BodyRows& rows, Row<Tasks> task) {
         runs.striker_poisson[task] = double{rows.materials.poisson_ratio[material]};
     }
     runs.spin.set(task, Vec3d(rows.tasks.start_spin[task]));
-    return most > 0;
+    // Of several the hardest: all of them push the pieces.
+    double hardest = 0;
+    for (uint32_t b = 0; b < blows.size(); ++b) {
+        if (blows.task[b] != task.index || !is_kind(blows, b, BlowKind::Explosion)) continue;
+        runs.blast_impulse.set(task, Vec3d(runs.blast_impulse[task]) + Vec3d(blows.impulse[b]));
+        if (!(double{blows.speed[b]} > hardest)) continue;
+        hardest = double{blows.speed[b]};
+        runs.blast_centre.set(task, Vec3d(blows.point[b]));
+        runs.blast_radius[task] = double{blows.radius[b]};
+        runs.blast_strength[task] = double{blows.strength[b]};
+        runs.point.set(task, Vec3d(blows.point[b])), runs.push.set(task, Vec3d(blows.direction[b]));
+        runs.speed[task] = hardest;
+    }
+    return most > 0 || hardest > 0;
 }
 
 SolidBlow blow_of(const LatticeRuns& runs, Row<Tasks> task) {
@@ -58,6 +71,8 @@ SolidBlow blow_of(const LatticeRuns& runs, Row<Tasks> task) {
     blow.radius = runs.radius[task];
     blow.striker.young = runs.striker_young[task], blow.striker.poisson = runs.striker_poisson[task];
     blow.spin = runs.spin[task];
+    blow.blast.centre = runs.blast_centre[task];
+    blow.blast.radius = runs.blast_radius[task], blow.blast.strength = runs.blast_strength[task];
     return blow;
 }
 

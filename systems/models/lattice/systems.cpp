@@ -8,8 +8,8 @@
 
 namespace cullet::lattice {
 
-void start_breaks(EachOwn<TaskOpened> opened, BodyRows& rows) {
-    gather_blow(rows, opened->task);
+void start_breaks(EachOwn<TaskOpened> opened, BodyRows& rows, const Blows& blows) {
+    gather_blow(rows, blows, opened->task);
     begin_run(rows, opened->task);
 }
 

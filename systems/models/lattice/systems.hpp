@@ -5,7 +5,7 @@
 namespace cullet::lattice {
 
 /// The blow of a task that opens, and a room for its run.
-void start_breaks(EachOwn<TaskOpened> opened, BodyRows& rows);
+void start_breaks(EachOwn<TaskOpened> opened, BodyRows& rows, const Blows& blows);
 /// Inner loop: one step of the break; the last ones cut the pieces' skins and choose their hulls.
 void work_break(Of<Tasks> task, BodyRows& rows);
 /// What came of it.

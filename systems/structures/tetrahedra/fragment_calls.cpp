@@ -33,6 +33,7 @@ Rows<Fragments> list_found(RunRows& rows, Row<Tasks> task, Fragments& fragments)
         fragments.first_element[f] = fragments.last_element[f] = broken.cells[piece.cells.first];
         fragments.element_count[f] = piece.cells.count;
         fragments.mass[f] = density * piece.volume;
+        fragments.has_pins[f] = piece.has_pins;
     }
     return made;
 }
@@ -41,6 +42,7 @@ void join(RunRows& rows, const Break& of, Fragments& fragments, Row<Fragments> f
     broken_of(rows, of.task).pieces[fragment - of.fragments.first].one_with = of.largest - of.fragments.first;
     fragments.element_count[of.largest] += fragments.element_count[fragment];
     fragments.mass[of.largest] += fragments.mass[fragment];
+    fragments.has_pins[of.largest] |= fragments.has_pins[fragment];
     fragments.element_count[fragment] = 0;
     fragments.mass[fragment] = 0;
     fragments.first_element[fragment] = fragments.last_element[fragment] = kNone;
@@ -145,7 +147,8 @@ void strike(RunRows& rows, const Break& of, Fragments& f) {
         at.normal = Vec3d(contacts.normal[first + i]);
         at.arm = Vec3d(contacts.point[first + i]) - f.centre[at.fragment];
         const Vec3d turn = cross(at.arm, at.normal);
-        at.inverse_mass = 1 / f.moving_mass[at.fragment] + dot(turn, spin_of(f, at.fragment, turn));
+        if (!f.has_pins[at.fragment])
+            at.inverse_mass = 1 / f.moving_mass[at.fragment] + dot(turn, spin_of(f, at.fragment, turn));
         contacts.impulse[first + i] = 0;
     }
     for (int round = 0; round < kRounds; ++round)
@@ -160,6 +163,7 @@ void strike(RunRows& rows, const Break& of, Fragments& f) {
             const double before = contacts.impulse[c];
             const double after = std::max(0.0, before + speed / inverse_mass);
             contacts.impulse[c] = after;
+            if (f.has_pins[at.fragment]) continue;
             const Vec3d given = (after - before) * at.normal;
             f.momentum.set(at.fragment, f.momentum[at.fragment] + given);
             f.turning.set(at.fragment, f.turning[at.fragment] + cross(at.arm, given));
@@ -176,6 +180,11 @@ void sum_momenta(RunRows& rows, const Break& of, Fragments& fragments,
         const Vec3d velocity = of.start.velocity + cross(of.start.spin, fragments.centre[f] - of.start.centre);
         fragments.momentum.set(f, fragments.moving_mass[f] * velocity);
         fragments.turning.set(f, fragments.inertia[f] * of.start.spin);
+        // What came late has moved the body already.
+        if (rows.tasks.is_late[of.task] || fragments.has_pins[f]) continue;
+        const BrokenPiece& piece = piece_of(rows, of, f);
+        fragments.momentum.set(f, Vec3d(fragments.momentum[f]) + piece.impulse);
+        fragments.turning.set(f, Vec3d(fragments.turning[f]) + piece.turning);
     }
     strike(rows, of, fragments);
     for (const Row<Fragments> f : of.fragments) {

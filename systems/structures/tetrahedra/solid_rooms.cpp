@@ -76,6 +76,40 @@ BrokenTriangle triangle_of(const SolidRows& rows, uint32_t source, const ClosedM
     return made;
 }
 
+/// Crack faces look like one broken face and not like tetrahedra: corners take the mean of the faces around them that
+/// bend away by less than this; a sharper edge stays one.
+constexpr double kSmooth = 0.7071;  // cosine of 45 degrees
+void smooth_cracks(const PieceSkin& skin, std::span<BrokenTriangle> made) {
+    List<uint32_t> first(skin.places.size() + 1);
+    List<Vec3d> across(made.size());
+    for (size_t t = 0; t < made.size(); ++t) {
+        if (skin.triangles[t].source != kNone) continue;
+        const auto& c = made[t].corners;
+        const Vec3d p = skin.places[c[0]];
+        across[t] = cross(skin.places[c[1]] - p, skin.places[c[2]] - p);
+        for (const uint32_t v : c) ++first[v + 1];
+    }
+    for (size_t v = 0; v + 1 < first.size(); ++v) first[v + 1] += first[v];
+    List<uint32_t> around(first.back()), next(first.begin(), first.end() - 1);
+    for (uint32_t t = 0; t < made.size(); ++t)
+        if (skin.triangles[t].source == kNone)
+            for (const uint32_t v : made[t].corners) around[next[v]++] = t;
+    for (size_t t = 0; t < made.size(); ++t) {
+        const double size = length(across[t]);
+        if (skin.triangles[t].source != kNone || !(size > 0)) continue;
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t v = made[t].corners[k];
+            Vec3d sum;
+            for (uint32_t i = first[v]; i < first[v + 1]; ++i)
+                if (dot(across[around[i]], across[t]) > kSmooth * size * length(across[around[i]]))
+                    sum += across[around[i]];
+            const Vec3 normal = normalised(sum).to_float();
+            made[t].normals[3 * k] = normal.x, made[t].normals[3 * k + 1] = normal.y;
+            made[t].normals[3 * k + 2] = normal.z;
+        }
+    }
+}
+
 void weigh_piece(const PieceSkin& skin, BrokenPiece& piece) {
     const Vec3d origin = skin.places[0];
     VolumeSums sums;
@@ -183,6 +217,7 @@ void lay_piece(const SolidRows& rows, Row<CookedSolids> row, const CookedSolid& 
         broken.triangles.push_back(t.source == kNone
                                        ? flat_triangle(skin, t, solid.mesh)
                                        : triangle_of(rows, first_source + t.source, solid.mesh, t.source, skin, t));
+    smooth_cracks(skin, std::span(broken.triangles).subspan(piece.triangles.first));
     broken.pieces.push_back(piece);
 }
 

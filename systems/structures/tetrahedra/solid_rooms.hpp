@@ -34,6 +34,8 @@ struct BrokenPiece {
     Sym3d inertia;                                      // about the centre, of density 1
     double radius = 0;                                  // m, no point is farther from the centre
     uint32_t one_with = 0;                              // the piece that takes it along; its own number as a rule
+    bool has_pins = false;                              // it stays where it is
+    Vec3d impulse, turning;                             // N s, N m s about its centre: what an explosion gives it
 };
 /// Where two pieces lie at each other.
 struct BrokenTouch {

@@ -135,6 +135,7 @@ void add_solid_surface_calls(StructureCalls& calls) {
     calls.nearest_point = nearest_point;
     calls.measure_explosion = measure;
     calls.is_cut_by = always;
+    calls.bears_loads = true;
     calls.draw = draw_solid_body;
     calls.remember_drawn = nothing;
     calls.drawn_parts = drawn_parts;

@@ -44,6 +44,15 @@ BreakableSolid make_breakable(Solid solid) {
     return body;
 }
 
+void give_normals(BreakableSolid& body, const ClosedMesh& mesh) {
+    body.patch_normals.clear();
+    for (const SurfacePatch& patch : body.solid.patches) {
+        const Triangle& t = mesh.triangles[patch.triangle];
+        const Vec3d p = mesh.positions[t[0]];
+        body.patch_normals.push_back(normalised(cross(mesh.positions[t[1]] - p, mesh.positions[t[2]] - p)));
+    }
+}
+
 void scatter_strength(BreakableSolid& body, double modulus, uint64_t seed) {
     const Random random{seed};
     const double mean = body.solid.volume / static_cast<double>(body.solid.cells.size());

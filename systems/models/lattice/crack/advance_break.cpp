@@ -9,6 +9,7 @@ namespace cullet {
 namespace {
 
 constexpr uint32_t kNoCell = 0xffffffffu;
+constexpr double kLoadRatio = 2.5;      // of stress and strength under a load that is too much
 constexpr double kLeastSolved = 2;      // times the least piece: a smaller one breaks no more
 constexpr double kDurationPower = 0.4;  // of the mass, in Hertz' duration
 
@@ -58,7 +59,11 @@ void close_piece(const BreakableSolid& body, BreakRun& run) {
 
 void decide_on_cracks(const BreakableSolid& body, BreakRun& run) {
     const uint32_t c = weakest(body, run);
-    const double ratio = c == kNoCell ? 0 : ratio_of(body, run, c);
+    double ratio = c == kNoCell ? 0 : ratio_of(body, run, c);
+    if (run.rules.must_break && run.at_round == 0 && ratio > 0 && ratio < kLoadRatio) {
+        run.brittle.tensile_strength *= ratio / kLoadRatio;
+        ratio = kLoadRatio;
+    }
     if (run.at_round == 0 && ratio > run.gate) {
         run.gate = ratio;
         run.first_crack = 1 / ratio;
@@ -70,7 +75,7 @@ void decide_on_cracks(const BreakableSolid& body, BreakRun& run) {
     }
     const double volume = run.volume[run.at_piece];
     const double duration = run.contact.duration / run.share * power(volume / run.volume_before, kDurationPower);
-    run.load = load_share(ratio, duration, volume, run.brittle);
+    run.load = run.rules.must_break ? 1 : load_share(ratio, duration, volume, run.brittle);
     find_directions(run);
     run.stage = run.rules.is_curved ? BreakStage::Field : BreakStage::Crack;
 }
@@ -161,8 +166,9 @@ void begin_break(const BreakableSolid& body, const BrittleSolid& brittle, const 
     }
     run.volume_before = own.empty() ? body.solid.volume : sum;
     run.patch = patch_radius(run.contact, brittle, body.solid.lattice.edge, run.volume_before);
+    run.brought = 0.5 * blow.effective_mass * blow.speed * blow.speed;
     for (uint32_t i = 0; i < run.is_held.size(); ++i) run.is_held[i] = held.empty() ? 0 : held[i];
-    move_to_surface(body, run);
+    blow.blast.radius > 0 ? measure_blast(body, run) : move_to_surface(body, run);
     run.queue_first = run.queue_end = 0;
     for (uint32_t p = 0; p < body.part_count; ++p)
         if (weight_of(body, run, p) > 0) run.queue[run.queue_end++] = {p, 0};

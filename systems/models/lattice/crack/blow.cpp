@@ -36,9 +36,16 @@ double patch_radius(const HertzContact& contact, const BrittleSolid& brittle, do
     return std::max({contact.radius, crushed, kPatchEdges * edge, kPatchSize * power(volume, 1.0 / 3)});
 }
 
-double force_share(const SolidBlow& blow, double strain_energy) {
-    const double kinetic = 0.5 * blow.effective_mass * blow.speed * blow.speed;
-    return std::sqrt(kinetic / (kinetic + strain_energy));
+double force_share(double brought, double strain_energy) {
+    return std::sqrt(brought / (brought + strain_energy));
+}
+
+Vec3d SolidBlast::impulse(Vec3d place, Vec3d normal, double area) const {
+    const Vec3d away = place - centre;
+    const double distance = length(away);
+    if (!(distance < radius) || !(distance > 0)) return {};
+    const double facing = dot(normal, away) / distance, left = 1 - distance / radius;
+    return facing < 0 ? (strength * left * left * facing * area) * normal : Vec3d{};
 }
 
 double load_share(double ratio, double duration, double volume, const BrittleSolid& brittle) {

@@ -11,6 +11,16 @@ struct BrittleSolid {
     double compressive_strength = 500e6;  // Pa
 };
 
+/// What an explosion is to a body, in its frame. Pressure lasts as long as sound in air takes over its reach.
+struct SolidBlast {
+    Vec3d centre;         // m
+    double radius = 0;    // m, its reach; 0: there is none
+    double strength = 0;  // N s/m2 at the centre
+    double duration() const { return radius / 340; }
+    /// N s, of so much of the surface.
+    Vec3d impulse(Vec3d place, Vec3d normal, double area) const;
+};
+
 /// In the body's frame.
 struct SolidBlow {
     Vec3d point;                // m
@@ -21,6 +31,7 @@ struct SolidBlow {
     ElasticSolid striker;
     Vec3d spin;                 // of the body, rad/s
     double longest = 1.0 / 60;  // s that a contact may last
+    SolidBlast blast;           // with a reach it is all that the blow is
 };
 
 struct HertzContact {
@@ -34,9 +45,9 @@ HertzContact hertz_contact(const SolidBlow& blow, const ElasticSolid& body);
 /// is no patch. The floor by volume keeps the first crack the same on finer lattices.
 double patch_radius(const HertzContact& contact, const BrittleSolid& brittle, double edge, double volume);
 
-/// Contact and body are springs in series: how much of the contact's force is left, when at this force the body takes
-/// up the strain energy (J).
-double force_share(const SolidBlow& blow, double strain_energy);
+/// Contact and body are springs in series: how much of the contact's force is left of a blow that brings so much energy
+/// (J), when at this force the body takes up the strain energy.
+double force_share(double brought, double strain_energy);
 
 /// Cracks begin at 1 / ratio of the load, and it goes on rising while the first one runs: what share of it comes.
 double load_share(double ratio, double duration, double volume, const BrittleSolid& brittle);

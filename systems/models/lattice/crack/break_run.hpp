@@ -18,6 +18,8 @@ struct CrackRules {
     uint32_t most_cracks = 24;  // 0: the gate alone is wanted
     uint32_t most_rounds = 6, most_tries = 40;
     bool is_curved = true;  // false: along planes, which is quicker and plainer
+    /// A load is more than it bears, as who weighed it says: it cracks where it is weakest, if anything of it is pulled.
+    bool must_break = false;
 };
 
 enum class BreakStage : uint8_t { NextPiece, Assemble, Factor, Stress, Field, Crack, Done };
@@ -35,6 +37,7 @@ struct BreakRun {
     HertzContact contact;
     double volume_before = 0;  // m3, of the body: all of the solid, or what earlier breaks left of it
     double patch = 0;          // m, radius
+    double brought = 0;        // J, that the blow brings
     double share = 1;          // of the contact's force
     double gate = 0;           // the largest ratio of stress and strength before any crack: below 1 nothing breaks
     double first_crack = 0;    // share of the load at which the first one starts

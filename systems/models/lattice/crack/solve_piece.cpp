@@ -6,9 +6,9 @@ namespace cullet {
 namespace {
 
 constexpr uint32_t kNoPatch = 0xffffffffu;
-constexpr double kBed = 100;                              // of E / a: what a held patch stands on
-constexpr uint32_t kFewestCells = 4;                      // of a piece that is solved
-constexpr double kForcePower = 0.6;                       // of the mass, in Hertz' force
+constexpr double kBed = 100;          // of E / a: what a held patch stands on
+constexpr uint32_t kFewestCells = 4;  // of a piece that is solved
+constexpr double kForcePower = 0.6;   // of the mass, in Hertz' force
 
 double weight_of(const BreakRun& run, const SurfacePatch& patch) {
     const Vec3d from = patch.centroid - run.blow.point;
@@ -28,7 +28,28 @@ uint32_t nearest_patch(const BreakableSolid& body, const BreakRun& run, Vec3d po
     return best;
 }
 
+Vec3d impulse_on(const BreakableSolid& body, const BreakRun& run, uint32_t patch) {
+    const SurfacePatch& p = body.solid.patches[patch];
+    return run.blow.blast.impulse(p.centroid, body.patch_normals[patch], p.area);
+}
+
+// Pressure on all that faces it: a piece of the body gets no less of it than the whole.
+bool lay_blast(const BreakableSolid& body, BreakRun& run) {
+    const auto& patches = body.solid.patches;
+    const double scale = run.share / run.blow.blast.duration();
+    bool is_any = false;
+    for (uint32_t i = 0; i < patches.size(); ++i) {
+        if (run.piece[patches[i].cell] != run.at_piece) continue;
+        const Vec3d impulse = impulse_on(body, run, i);
+        if (!(dot(impulse, impulse) > 0)) continue;
+        is_any = true;
+        add_force(body.elements, body.elements.patches[i], scale * impulse, run.loads);
+    }
+    return is_any;
+}
+
 bool lay_blow(const BreakableSolid& body, BreakRun& run, double force) {
+    if (run.blow.blast.radius > 0) return lay_blast(body, run);
     const double sum = weight_of(body, run, run.at_piece);
     if (!(sum > 0)) return false;
     const auto& patches = body.solid.patches;
@@ -101,8 +122,26 @@ void move_to_surface(const BreakableSolid& body, BreakRun& run) {
     if (nearest != kNoPatch) run.blow.point = body.solid.patches[nearest].centroid;
 }
 
+void measure_blast(const BreakableSolid& body, BreakRun& run) {
+    const double wall = 0.5 * run.brittle.density * body.solid.thickness;  // kg/m2, that is pushed at first
+    run.contact = {0, run.blow.blast.duration(), 0};
+    run.brought = 0;
+    for (uint32_t i = 0; i < body.solid.patches.size(); ++i) {
+        if (run.piece[body.solid.patches[i].cell] >= body.part_count) continue;
+        const Vec3d impulse = impulse_on(body, run, i);
+        run.contact.force += length(impulse) / run.contact.duration;
+        run.brought += 0.5 * dot(impulse, impulse) / (wall * body.solid.patches[i].area);
+    }
+    run.patch = 0;
+}
+
 double weight_of(const BreakableSolid& body, const BreakRun& run, uint32_t piece) {
     double sum = 0;
+    if (run.blow.blast.radius > 0) {
+        for (uint32_t i = 0; i < body.solid.patches.size(); ++i)
+            if (run.piece[body.solid.patches[i].cell] == piece) sum += length(impulse_on(body, run, i));
+        return sum;
+    }
     for (const SurfacePatch& patch : body.solid.patches)
         if (run.piece[patch.cell] == piece) sum += weight_of(run, patch);
     return sum;
@@ -137,7 +176,7 @@ bool assemble_some(const BreakableSolid& body, BreakRun& run, uint64_t work, boo
 bool find_some_stress(const BreakableSolid& body, BreakRun& run, uint64_t work) {
     if (run.next_cell == 0) {
         displace(body, run);
-        if (run.solve_count == 1) run.share = force_share(run.blow, strain_energy(run));
+        if (run.solve_count == 1) run.share = force_share(run.brought, strain_energy(run));
     }
     // Loads were laid with the contact's whole force in the first solve, and with the share of it afterwards.
     const double scale = run.solve_count == 1 ? run.share : 1;

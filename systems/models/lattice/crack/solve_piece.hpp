@@ -8,6 +8,8 @@ inline constexpr uint64_t kElementWork = 2500, kCellWork = 600;  // multiplicati
 
 /// Where the blow does not reach the surface it counts at the nearest place of it.
 void move_to_surface(const BreakableSolid& body, BreakRun& run);
+/// Force, duration and energy of the blow where it is an explosion.
+void measure_blast(const BreakableSolid& body, BreakRun& run);
 /// Of the patches of a piece that the blow reaches: 0 means none.
 double weight_of(const BreakableSolid& body, const BreakRun& run, uint32_t piece);
 

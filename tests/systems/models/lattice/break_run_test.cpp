@@ -26,7 +26,7 @@ BreakableSolid brick(double cells, int elements) {
 }
 
 SolidBlow blow_on(Vec3d point, Vec3d push, double speed, double mass) {
-    return {point, normalised(push), speed, mass, 0.01, kGround, {}, 1.0 / 60};
+    return {point, normalised(push), speed, mass, 0.01, kGround, {}, 1.0 / 60, {}};
 }
 SolidBlow on_a_corner(double speed) {
     return blow_on(kHalf, {-1, -1, -1}, speed, 1.5);

@@ -76,7 +76,8 @@ TEST(CrackFaces, TetrahedraKeepTheirVolumeAndPointsStayNear) {
             Arena arena(break_bytes(body));
             BreakRun run = take_break(arena, body);
             begin_break(body, {{12e9, 0.18}, 1900, 2.5e6, 25e6},
-                        {kHalf, normalised(Vec3d{-1, -1, -1}), speed, 1.5, 0.01, {30e9, 0.2}, {}, 0.02}, {}, {}, run);
+                        {kHalf, normalised(Vec3d{-1, -1, -1}), speed, 1.5, 0.01, {30e9, 0.2}, {}, 0.02, {}}, {}, {},
+                        run);
             while (!advance_break(body, run, 1'000'000)) continue;
             Faces made(body);
             filter_by_majority(body, {}, run.piece, run.volume);

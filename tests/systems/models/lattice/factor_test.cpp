@@ -7,7 +7,7 @@
 #include "engine/random.hpp"
 #include "engine/simd.hpp"
 #include "systems/structures/tetrahedra/cook/cover_lattice.hpp"
-#include "tests/support/elastic_solve.hpp"
+#include "sample_game/elastic_solve.hpp"
 #include "tests/support/lattice_solids.hpp"
 
 namespace cullet {

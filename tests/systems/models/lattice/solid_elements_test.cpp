@@ -5,36 +5,13 @@
 #include <set>
 
 #include "systems/structures/tetrahedra/cook/cook_solid.hpp"
-#include "tests/support/elastic_solve.hpp"
+#include "sample_game/elastic_solve.hpp"
 #include "tests/support/lattice_solids.hpp"
 
 namespace cullet {
 namespace {
 
 constexpr ElasticSolid kStone{10e9, 0.2};
-
-// The face of a box at x = +-half.x carries `traction` (N/m2, by place): forces on a grid that is finer than any
-// polygon.
-template <class Traction>
-void pull(ElasticSolve& solve, Vec3d half, double side, Traction traction) {
-    constexpr int kGrid = 60;
-    for (int i = 0; i < kGrid; ++i)
-        for (int k = 0; k < kGrid; ++k) {
-            const Vec3d place{side * half.x, half.y * ((2 * i + 1.0) / kGrid - 1),
-                              half.z * ((2 * k + 1.0) / kGrid - 1)};
-            ElementPlace at;
-            double inside = -1e300;
-            for (uint32_t e = 0; e < solve.solid.elements.size(); ++e) {
-                const SolidElement& element = solve.solid.elements[e];
-                Barycentric l{};
-                for (uint32_t c = 0; c < 4; ++c)
-                    l[c] = dot(element.gradient[c], place - solve.solid.places[element.node[(c + 1) % 4]]);
-                const double least = *std::min_element(l.begin(), l.end());
-                if (volume_of(solve.sums[e]) > 0 && least > inside) inside = least, at = {e, l};
-            }
-            add_force(solve.solid, at, 4 * half.y * half.z / (kGrid * kGrid) * traction(place), solve.loads);
-        }
-}
 
 Solid bar(Vec3d half, double edge, int elements) {
     return fill_convex(box_planes(half), half, {.edge = edge, .elements = elements});
@@ -89,8 +66,8 @@ TEST(SolidElements, APulledBarTakesTheEnergyOfTheory) {
         const SolidElements elements = make_elements(solid);
         ElasticSolve solve(elements, kStone);
         constexpr double kPull = 1e6;
-        pull(solve, half, 1, [](Vec3d) { return Vec3d{kPull, 0, 0}; });
-        pull(solve, half, -1, [](Vec3d) { return Vec3d{-kPull, 0, 0}; });
+        pull_face(solve, half, 1, [](Vec3d) { return Vec3d{kPull, 0, 0}; });
+        pull_face(solve, half, -1, [](Vec3d) { return Vec3d{-kPull, 0, 0}; });
         solve.solve();
         const double theory = 0.5 * kPull * kPull / kStone.young * solid.volume;
         EXPECT_NEAR(solve.energy() / theory, 1, 2e-3) << edge;
@@ -107,8 +84,8 @@ TEST(SolidElements, ABentBarTakesTheEnergyAndStressOfTheory) {
             const SolidElements elements = make_elements(solid);
             ElasticSolve solve(elements, kStone);
             constexpr double kMost = 1e6;  // at y = half.y
-            pull(solve, half, 1, [&](Vec3d p) { return Vec3d{kMost * p.y / half.y, 0, 0}; });
-            pull(solve, half, -1, [&](Vec3d p) { return Vec3d{-kMost * p.y / half.y, 0, 0}; });
+            pull_face(solve, half, 1, [&](Vec3d p) { return Vec3d{kMost * p.y / half.y, 0, 0}; });
+            pull_face(solve, half, -1, [&](Vec3d p) { return Vec3d{-kMost * p.y / half.y, 0, 0}; });
             solve.solve();
             const double theory = kMost * kMost / (6 * kStone.young) * solid.volume;
             double most = 0;
@@ -129,8 +106,8 @@ TEST(SolidElements, AThinPlateBends) {
         const SolidElements elements = make_elements(solid);
         ElasticSolve solve(elements, kStone);
         constexpr double kMost = 1e6;
-        pull(solve, half, 1, [&](Vec3d p) { return Vec3d{kMost * p.z / half.z, 0, 0}; });
-        pull(solve, half, -1, [&](Vec3d p) { return Vec3d{-kMost * p.z / half.z, 0, 0}; });
+        pull_face(solve, half, 1, [&](Vec3d p) { return Vec3d{kMost * p.z / half.z, 0, 0}; });
+        pull_face(solve, half, -1, [&](Vec3d p) { return Vec3d{-kMost * p.z / half.z, 0, 0}; });
         solve.solve();
         const double theory = kMost * kMost / (6 * kStone.young) * solid.volume;
         EXPECT_GT(solve.energy() / theory, 0.9) << edge;
@@ -196,7 +173,7 @@ TEST(SolidElements, AFreeBarPushedAtOneEndHasTheStressOfItsMass) {
     const SolidElements elements = make_elements(solid);
     ElasticSolve solve(elements, kStone);
     constexpr double kPush = 1e6;
-    pull(solve, half, -1, [](Vec3d) { return Vec3d{kPush, 0, 0}; });
+    pull_face(solve, half, -1, [](Vec3d) { return Vec3d{kPush, 0, 0}; });
     const PieceMass mass = mass_of(elements, solve.cells, 2000);
     EXPECT_NEAR(mass.mass, 2000 * solid.volume, 1e-9);
     relieve(elements, solve.cells, 2000, mass, {}, solve.loads);

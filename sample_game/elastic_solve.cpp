@@ -1,4 +1,4 @@
-#include "tests/support/elastic_solve.hpp"
+#include "sample_game/elastic_solve.hpp"
 
 #include <algorithm>
 
