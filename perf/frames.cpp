@@ -66,6 +66,12 @@ bool measure_vase_frames(const Options& options, Figures& figures) {
 bool measure_wall_frames(const Options& options, Figures& figures) {
     return measure_scene("wall", options, 3, figures);
 }
+bool measure_solid_frames(const Options& options, Figures& figures) {
+    bool is_good = true;
+    for (const char* scene : {"statue", "table", "bowl", "museum"})
+        is_good &= measure_scene(scene, options, 3, figures);
+    return is_good;
+}
 bool measure_pane_frames(const Options& options, Figures& figures) {
     return measure_scene("pane", options, 3, figures);
 }

@@ -31,6 +31,7 @@ const Scene kScenes[] = {{"hidden_step", measure_hidden_step},
                          {"vase", measure_vase_frames},
                          {"wall", measure_wall_frames},
                          {"pane", measure_pane_frames},
+                         {"lattice", measure_solid_frames},
                          {"demolition", measure_demolition_frames, false},  // some minutes
                          {"pile_frames", measure_pile_frames, false},       // a pass takes half an hour
                          {"soak", measure_soak, false}};                    // and some minutes

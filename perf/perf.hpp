@@ -60,6 +60,8 @@ bool measure_metal(const Options& options, Figures& figures);
 bool measure_vase_frames(const Options& options, Figures& figures);
 bool measure_wall_frames(const Options& options, Figures& figures);
 bool measure_pane_frames(const Options& options, Figures& figures);
+/// The same of the scenes with solids.
+bool measure_solid_frames(const Options& options, Figures& figures);
 bool measure_demolition_frames(const Options& options, Figures& figures);
 bool measure_pile_frames(const Options& options, Figures& figures);
 /// A million fragments (or as many as `rounds` says) born and retired, at most 4,096 alive. False: a handle of what is
