@@ -8,7 +8,7 @@ namespace cullet {
 /// One row is one row of Bodies.
 struct FragmentAges : Table<FragmentAges> {
     using Table::Table;
-    static constexpr const char* kName = "fragment_ages";
+    CULLET_TABLE(fragment_ages);
     Column<uint64_t> born{*this, "born"};  // 1 + the step in which it broke off; 0: no fragment, or retired
 };
 
@@ -19,7 +19,7 @@ inline uint64_t born_of(const FragmentAges& ages, uint32_t body) {
 /// One row is one row of Debris.
 struct DebrisAges : Table<DebrisAges> {
     using Table::Table;
-    static constexpr const char* kName = "debris_ages";
+    CULLET_TABLE(debris_ages);
     Column<uint64_t> born{*this, "born"};  // the step
 };
 

@@ -17,7 +17,7 @@ inline constexpr uint32_t kMostCutPoints = 32;  // corners of a polyline
 /// half is for those rows.
 struct Blows : Table<Blows> {
     using Table::Table;
-    static constexpr const char* kName = "blows";
+    CULLET_TABLE(blows);
     Column<uint8_t> kind{*this, "kind"};          // BlowKind
     Column<Row<Bodies>> body{*this, "body"};      // kNone: all that it reaches, and the rest stands in world axes
     Column<uint32_t> task{*this, "task"};         // the open task that works it off, or kNone: it waits

@@ -19,7 +19,7 @@ inline constexpr uint8_t kOwedBirths = 1, kOwedDrawing = 2, kOwedShape = 3;
 /// One row is one thing that the rigid world moves. Rows are reused; the generation tells a stale handle.
 struct Bodies : RangeTable<Bodies> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "bodies";
+    CULLET_TABLE(bodies);
     Column<uint32_t> generation{*this, "generation"};
     Column<uint8_t> kind{*this, "kind"};                    // BodyKind
     Column<Row<Models>> model{*this, "model"};              // kNone: no structure (a ball, static triangles)
@@ -78,7 +78,7 @@ struct Bodies : RangeTable<Bodies> {
 /// One row is a box whose vertices a spawn pinned: body frame, borders included. A cut asks where it runs among them.
 struct PinBoxes : Table<PinBoxes> {
     using Table::Table;
-    static constexpr const char* kName = "pin_boxes";
+    CULLET_TABLE(pin_boxes);
     Column<Vec3> low{*this, "low", "m"};
     Column<Vec3> high{*this, "high", "m"};
 };
@@ -86,7 +86,7 @@ struct PinBoxes : Table<PinBoxes> {
 /// One row is one cooked model in this world. It can go while bodies of it live.
 struct Models : Table<Models> {
     using Table::Table;
-    static constexpr const char* kName = "models";
+    CULLET_TABLE(models);
     Column<uint32_t> generation{*this, "generation"};
     Column<Row<Structures>> structure{*this, "structure"};
     Column<Row<ModelMeshes>> mesh{*this, "mesh"};  // none before its first body
@@ -96,7 +96,7 @@ struct Models : Table<Models> {
 /// One row is the drawn mesh of a model, which its intact bodies show. Its users: the model, and each of them.
 struct ModelMeshes : RangeTable<ModelMeshes> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "model_meshes";
+    CULLET_TABLE(model_meshes);
     Column<uint32_t> users{*this, "users"};
     Column<Range> vertices{*this, "vertices"};
     Column<Range> indices{*this, "indices"};
@@ -112,13 +112,13 @@ struct ColumnType<ViewVertex> : ColumnLayout<ViewVertex, Scalar::F32, 8> {};
 /// One row is one corner of a drawn mesh, as the game reads it.
 struct ViewVertices : RangeTable<ViewVertices, 16> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "view_vertices";
+    CULLET_TABLE(view_vertices);
     Column<ViewVertex> vertex{*this, "vertex", "m, 1, 1"};
 };
 
 struct ViewIndices : RangeTable<ViewIndices, 16> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "view_indices";
+    CULLET_TABLE(view_indices);
     Column<uint32_t> index{*this, "index"};    // relative to the body's first view vertex
     Column<uint32_t> source{*this, "source"};  // of its triangle: 8 times the shell's element, plus which of its own
 };
@@ -126,7 +126,7 @@ struct ViewIndices : RangeTable<ViewIndices, 16> {
 /// One row is one piece too small to be a body: a point with mass and momentum.
 struct Debris : Table<Debris> {
     using Table::Table;
-    static constexpr const char* kName = "debris";
+    CULLET_TABLE(debris);
     Column<uint8_t> is_used{*this, "is_used"};
     Column<Vec3> position{*this, "position", "m"};
     Column<Vec3> velocity{*this, "velocity", "m/s"};

@@ -24,7 +24,7 @@ class PassingColumn : public Column<T> {
 /// the order of their numbers in its structure. Places and motions are along the body's axes.
 struct Fragments : Table<Fragments> {
     using Table::Table;
-    static constexpr const char* kName = "fragments";
+    CULLET_TABLE(fragments);
     template <class T>
     using Own = PassingColumn<T>;
     // What it is: elements of the structure, in a list that the structure knows to follow.
@@ -60,7 +60,7 @@ struct Fragments : Table<Fragments> {
 /// One row is a place on a crack that two fragments of a body have in common, along the body's axes.
 struct Touches : Table<Touches> {
     using Table::Table;
-    static constexpr const char* kName = "touches";
+    CULLET_TABLE(touches);
     template <class T>
     using Own = PassingColumn<T>;
     Own<Row<Fragments>> a{*this, "a"};

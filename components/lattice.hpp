@@ -2,15 +2,16 @@
 // works on (BreakRun) stands in rooms of a fixed size beside the tables, in no file and no hash, and is made again by
 // the same steps where it is missing.
 #pragma once
+#include "components/bodies.hpp"
+#include "components/solid_rows.hpp"
 #include "components/tasks.hpp"
-#include "components/tetrahedra.hpp"
 
 namespace cullet {
 
 /// Row t is the blow that task t works off, body frame.
 struct LatticeRuns : Table<LatticeRuns> {
     using Table::Table;
-    static constexpr const char* kName = "lattice_runs";
+    CULLET_TABLE(lattice_runs);
     Column<Vec3d> point{*this, "point", "m"};
     Column<Vec3d> push{*this, "push"};                             // unit, into the body
     Column<double> speed{*this, "speed", "m/s"};                   // along the push
@@ -31,11 +32,21 @@ struct LatticeRuns : Table<LatticeRuns> {
 /// Row t is what task t broke its solid into, once its run is done: until its pieces are born.
 struct LatticeResults : Table<LatticeResults> {
     using Table::Table;
-    static constexpr const char* kName = "lattice_results";
+    CULLET_TABLE(lattice_results);
     Column<uint32_t> pieces{*this, "pieces"};
     Column<uint32_t> cracks{*this, "cracks"};
     Column<double> gate{*this, "gate"};               // stress over strength before any crack; below 1 nothing broke
     Column<double> impulse{*this, "impulse", "N s"};  // that the striker passed on
 };
+
+struct TablesOfLattices {
+    Limits limits;
+    LatticeRuns lattice_runs{limits.tasks};
+    LatticeResults lattice_results{limits.tasks};
+};
+
+/// A break of a solid: the solid, its working copy, the task, and who struck whom.
+using LatticeRows =
+    All<SolidRows, Tasks, HiddenRuns, const TaskContacts, const Bodies, const PinBoxes, LatticeRuns, LatticeResults, ScratchMemory>;
 
 }  // namespace cullet

@@ -9,7 +9,7 @@ inline constexpr uint32_t kMostMaterials = 64;  // rows of a world
 /// One row is one material.
 struct Materials : Table<Materials> {
     using Table::Table;
-    static constexpr const char* kName = "materials";
+    CULLET_TABLE(materials);
     Column<float> density{*this, "density", "kg/m3"};
     Column<float> young_modulus{*this, "young_modulus", "Pa"};
     Column<float> poisson_ratio{*this, "poisson_ratio"};
@@ -28,7 +28,7 @@ struct Materials : Table<Materials> {
 /// alone; material_traits() then knows those by itself.
 struct MaterialTraits : Table<MaterialTraits> {
     using Table::Table;
-    static constexpr const char* kName = "material_traits";
+    CULLET_TABLE(material_traits);
     Column<uint8_t> kind{*this, "kind"};          // MaterialKind
     Column<uint8_t> fracture{*this, "fracture"};  // FractureKind
     Column<float> branching{*this, "branching"};  // tips above this share of sigma_d may fork; 0: none does

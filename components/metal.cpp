@@ -1,12 +1,10 @@
 // Rows of metal come and go with their shells.
-#include "components/metal.hpp"
-
-#include "components/shell_rows.hpp"
+#include "components/metal_rows.hpp"
 
 namespace cullet {
-Row<MetalShells> make_metal(ShellRows& rows, Row<Structures> structure, const MetalRoom& room, const char** full) {
-    const Row<Shells> shell = rows.shell_of(structure);
-    CULLET_ASSERT(!rows.metal_of(structure).exists(), "structure %u is of metal already", structure.index);
+Row<MetalShells> make_metal(MetalTables rows, Row<Structures> structure, const MetalRoom& room, const char** full) {
+    const Row<Shells> shell = shell_of(rows.structures, structure);
+    CULLET_ASSERT(!metal_of(rows, structure).exists(), "structure %u is of metal already", structure.index);
     Range taken;
     if (!rows.metal_shells.take(1, taken)) {
         if (full) *full = "limits.shells";
@@ -27,26 +25,26 @@ Row<MetalShells> make_metal(ShellRows& rows, Row<Structures> structure, const Me
     return {};
 }
 
-MetalRoom metal_room_of(const ShellRows& rows, Row<Structures> structure) {
-    const Row<MetalShells> row = rows.metal_of(structure);
+MetalRoom metal_room_of(Read<MetalTables> rows, Row<Structures> structure) {
+    const Row<MetalShells> row = metal_of(rows, structure);
     if (!row.exists()) return {};
     const MetalShells& own = rows.metal_shells;
     return {own.vertices[row].count, own.elements[row].count, own.springs[row].count, own.cells[row].count,
             own.borders[row].count};
 }
 
-void release_metal(ShellRows& rows, Row<Structures> structure) {
-    const Row<MetalShells> row = rows.metal_of(structure);
+void release_metal(MetalTables rows, Row<Structures> structure) {
+    const Row<MetalShells> row = metal_of(rows, structure);
     if (!row.exists()) return;
     for_each_metal_range(rows, row, {},
                          [](Range& range, auto& table, uint32_t, const char*) { table.give_back(range); });
     rows.metal_shells.clear_rows(row, 1);
     rows.metal_shells.pool.give_back(row, 1);
-    rows.metal_owners.metal[rows.shell_of(structure)] = 0;
+    rows.metal_owners.metal[shell_of(rows.structures, structure)] = 0;
 }
 
-void copy_metal_rows(ShellRows& to, const ShellRows& from, Row<Structures> source, Row<Structures> copy) {
-    const Row<MetalShells> given = from.metal_of(source), own = to.metal_of(copy);
+void copy_metal_rows(MetalTables to, Read<MetalTables> from, Row<Structures> source, Row<Structures> copy) {
+    const Row<MetalShells> given = metal_of(from, source), own = metal_of(to, copy);
     std::array<Range, 5> ranges;
     size_t k = 0;
     for_each_metal_range(from, given, {},
@@ -65,9 +63,13 @@ void copy_metal_rows(ShellRows& to, const ShellRows& from, Row<Structures> sourc
         CULLET_ASSERT(found.count <= range.capacity, "copy of %s: %u rows do not fit %u", table.name(), found.count,
                       range.capacity);
         range.count = found.count;
-        if (found.count)
-            table.copy_rows(table_in<Rows>(const_cast<ShellRows&>(from)), found.first, range.first, found.count);
+        if (found.count) table.copy_rows(table_in<Rows>(from), found.first, range.first, found.count);
     });
+}
+
+void release_metal_shell(MetalShellRows rows, Row<Structures> structure) {
+    if (rows.structures.users[structure] == 1) release_metal(rows, structure);
+    release_shell(rows, structure);
 }
 
 }  // namespace cullet

@@ -32,7 +32,7 @@ inline constexpr uint8_t kAllPublished = 127;
 /// One row is what one shell has.
 struct MetalShells : RangeTable<MetalShells> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "metal_shells";
+    CULLET_TABLE(metal_shells);
     Column<Row<Structures>> structure{*this, "structure"};        // whose shell it is; MetalOwners says it again
     Column<Range> vertices{*this, "vertices"};                    // MetalVertices
     Column<Range> elements{*this, "elements"};                    // MetalElements
@@ -51,7 +51,7 @@ struct MetalShells : RangeTable<MetalShells> {
 /// metal. There are no rows while nothing is.
 struct MetalOwners : Table<MetalOwners> {
     using Table::Table;
-    static constexpr const char* kName = "metal_owners";
+    CULLET_TABLE(metal_owners);
     Column<uint32_t> metal{*this, "metal"};
 
     Row<MetalShells> of(Row<Shells> shell) const {
@@ -62,7 +62,7 @@ struct MetalOwners : Table<MetalOwners> {
 /// One row is one sub-shell: a connected group of elements that moves as one piece where the sheet folds and creases.
 struct SubShells : RangeTable<SubShells> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "sub_shells";
+    CULLET_TABLE(sub_shells);
     Column<uint32_t> representative{*this, "representative"};  // element
     Column<uint32_t> element_count{*this, "element_count"};
     Column<float> area{*this, "area", "m2"};
@@ -90,7 +90,7 @@ struct SubShells : RangeTable<SubShells> {
 /// One row is one neighbour of a sub-shell, of which there are two a border.
 struct SubShellBorders : RangeTable<SubShellBorders> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "sub_shell_borders";
+    CULLET_TABLE(sub_shell_borders);
     Column<uint16_t> other{*this, "other"};
     Column<float> length{*this, "length", "m"};  // a tie between sheets counts half a mean edge
 };
@@ -98,7 +98,7 @@ struct SubShellBorders : RangeTable<SubShellBorders> {
 /// Row v is of the shell's vertex v.
 struct MetalVertices : RangeTable<MetalVertices> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "metal_vertices";
+    CULLET_TABLE(metal_vertices);
     Column<Vec3> original{*this, "original", "m"};           // where it was before all impacts
     Column<Vec3> before{*this, "before", "m"};               // and before the last one, which may go on
     Column<float> pin_distance{*this, "pin_distance", "m"};  // to the nearest pin, original shape; 1e30: there is none
@@ -122,14 +122,14 @@ inline constexpr uint16_t kNoMover = 0xffff;
 /// Row e is of the shell's element e.
 struct MetalElements : RangeTable<MetalElements> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "metal_elements";
+    CULLET_TABLE(metal_elements);
     Column<uint16_t> cell{*this, "cell"};  // sub-shell
 };
 
 /// One row is one end of a spring along an edge, or of a tie between two sheets: the other end has a row, too.
 struct MetalSprings : RangeTable<MetalSprings> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "metal_springs";
+    CULLET_TABLE(metal_springs);
     Column<uint32_t> other{*this, "other"};       // vertex
     Column<float> length{*this, "length", "m"};   // of the original shape
     Column<float> stiffness{*this, "stiffness"};  // of the field: cotangents, 0.05 to 3; of a tie 1
@@ -139,7 +139,7 @@ struct MetalSprings : RangeTable<MetalSprings> {
 /// Row t is the impact that task t works off, body axes.
 struct MetalRuns : Table<MetalRuns> {
     using Table::Table;
-    static constexpr const char* kName = "metal_runs";
+    CULLET_TABLE(metal_runs);
     Column<uint8_t> shape{*this, "shape"};           // StrikerShape
     Column<Vec3> point{*this, "point", "m"};         // of the touch
     Column<Vec3> push{*this, "push"};                // unit: the way the striker goes
@@ -162,7 +162,7 @@ struct MetalRuns : Table<MetalRuns> {
 /// hangs on the whole energy, not on the steps that it comes in. There are no rows while nothing was struck.
 struct MetalImpacts : Table<MetalImpacts> {
     using Table::Table;
-    static constexpr const char* kName = "metal_impacts";
+    CULLET_TABLE(metal_impacts);
     Column<uint64_t> frame{*this, "frame"};         // of its last touch
     Column<float> seconds{*this, "seconds", "s"};   // in which there may be another; 0: there was none
     Column<uint8_t> has_shape{*this, "has_shape"};  // it moved vertices: MetalVertices.before is of it
@@ -178,7 +178,7 @@ struct MetalImpacts : Table<MetalImpacts> {
 /// Row b is what presses on body b slowly, until its task works it off. There are no rows while nothing was pressed.
 struct MetalPresses : Table<MetalPresses> {
     using Table::Table;
-    static constexpr const char* kName = "metal_presses";
+    CULLET_TABLE(metal_presses);
     Column<uint8_t> is_on{*this, "is_on"};     // 0: nothing presses
     Column<float> depth{*this, "depth", "m"};  // that it lies in the body
     Column<float> ahead{*this, "ahead", "m"};  // that it comes until the dent is there
@@ -191,7 +191,7 @@ inline constexpr uint32_t kFrontRows = 64;
 /// grid across it, from the point of touch; kNoFront where there is nothing of it.
 struct StrikerFronts : Table<StrikerFronts> {
     using Table::Table;
-    static constexpr const char* kName = "striker_fronts";
+    CULLET_TABLE(striker_fronts);
     Column<std::array<float, kFrontRows>> front{*this, "front", "m"};
 };
 inline constexpr float kNoFront = -1e30f;

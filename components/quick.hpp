@@ -27,14 +27,14 @@ struct QuickRules : Table<Own> {
 /// Row b is how body b breaks. Pieces inherit it.
 struct QuickBodies : QuickRules<QuickBodies> {
     using QuickRules::QuickRules;
-    static constexpr const char* kName = "quick_bodies";
+    CULLET_TABLE(quick_bodies);
 };
 
 /// Row t is the run of task t, by the rules that its body had when it opened. All motion is seen from the body as it
 /// moved at the touch: a vertex at rest in it has velocity 0 until the run ends.
 struct QuickRuns : QuickRules<QuickRuns> {
     using QuickRules::QuickRules;
-    static constexpr const char* kName = "quick_runs";
+    CULLET_TABLE(quick_runs);
     // Of the run.
     Column<Row<ShellSprings>> springs{*this, "springs"};  // of the task's shell; kNone before the region is awake
     Column<uint32_t> awake_count{*this, "awake_count"};   // vertices that the region had when it woke

@@ -9,7 +9,7 @@ namespace cullet {
 /// border (thick shell note, 6.2). Body axes.
 struct RegionRests : Table<RegionRests> {
     using Table::Table;
-    static constexpr const char* kName = "region_rests";
+    CULLET_TABLE(region_rests);
     Column<uint32_t> most_vertices{*this, "most_vertices"};  // of the cut-out when it was made; 0: the task has none
     Column<uint8_t> wants_more{*this,
                                "wants_more"};  // cracks or stress came to its border: begins again on a larger one

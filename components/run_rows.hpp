@@ -1,6 +1,5 @@
-// What damage runs work on: shells, their tasks and what a run keeps beside them.
+// What runs of the thick shell work on: shells, their tasks and what a run keeps beside them.
 #pragma once
-#include "components/lattice.hpp"
 #include "components/quick.hpp"
 #include "components/regions.hpp"
 #include "components/shell_rows.hpp"
@@ -19,6 +18,11 @@ struct RunStiffness {
     const StiffnessLinks& links;
 };
 
+/// The damage model that works on a task, that of the body that was hit: its place in the world's list.
+inline uint8_t model_of(Tables<const Structures, const Tasks> rows, uint32_t task) {
+    return rows.structures.damage_model[rows.tasks.source[task]];
+}
+
 struct TablesOfRuns {
     Limits limits;
     Tasks tasks{limits.tasks};
@@ -28,8 +32,6 @@ struct TablesOfRuns {
     MarkedPacks marked_packs{limits.tasks * kMostMarkedPacks};
     QuickRuns quick_runs{limits.tasks};
     RegionRests region_rests{limits.tasks};
-    LatticeRuns lattice_runs{limits.tasks};
-    LatticeResults lattice_results{limits.tasks};
 };
 struct RunRows : ShellRows, TablesOfRuns {
     RunRows(const Limits& l, const MaterialRows& of_what);
@@ -37,8 +39,7 @@ struct RunRows : ShellRows, TablesOfRuns {
     using Below = ShellRows;
     using Own = TablesOfRuns;
 
-    /// The damage model that works on a task, that of the body that was hit: its place in the world's list.
-    uint8_t model_of(uint32_t task) const { return structures.damage_model[tasks.source[task]]; }
+    uint8_t model_of(uint32_t task) const { return cullet::model_of(*this, task); }
 };
 
 /// Repetitions until the run's time is up, less those done and those that this frame has granted.

@@ -20,7 +20,7 @@ struct FragmentPart {
 /// Fragments. Rows behind the last task's are of a shell that no task works on.
 struct ShellParts : Table<ShellParts> {
     using Table::Table;
-    static constexpr const char* kName = "shell_parts";
+    CULLET_TABLE(shell_parts);
     Column<FragmentPart> part{*this, "part", "1", Keep::Scratch};
 
     std::span<FragmentPart> of_task(uint32_t task) { return {part.data() + size_t{task} * kMostParts, kMostParts}; }

@@ -100,17 +100,12 @@ void drop_stiffness(ShellRows& rows, Row<Structures> structure) {
     s.packs[shell] = s.blocks[shell] = s.links[shell] = {};
 }
 
-bool take_points(StructureRows& rows, uint32_t count, Range& range) {
-    return rows.hull_points.take(count, range);
-}
-
 void release_shell(ShellRows& rows, Row<Structures> structure) {
     Structures& structures = rows.structures;
     CULLET_ASSERT(structures.users[structure] > 0, "structure %u released more often than taken", structure.index);
     if (--structures.users[structure] > 0) return;
     const Row<Shells> shell = rows.shell_of(structure);
     release_springs(rows, structure);
-    release_metal(rows, structure);
     ShellRows::for_each_range(rows, structure,
                               [&](Range& range, auto& table, auto, const char*) { table.give_back(range); });
     rows.shells.clear_rows(shell, 1);
@@ -168,7 +163,7 @@ void copy_shell_rows(ShellRows& to, const ShellRows& from, Row<Structures> sourc
         const uint32_t count = is_wanted ? found.count : 0;
         CULLET_ASSERT(count <= room.capacity, "copy of %s: %u rows do not fit %u", table.name(), count, room.capacity);
         range = {room.first, count, room.capacity};
-        if (count) table.copy_rows(table_in<Rows>(const_cast<ShellRows&>(from)), found.first, room.first, count);
+        if (count) table.copy_rows(table_in<Rows>(from), found.first, room.first, count);
         if constexpr (std::is_same_v<Rows, Elements>)
             to.triangle_springs.copy_rows(from.triangle_springs, found.first, room.first, count);
     });

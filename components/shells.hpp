@@ -21,7 +21,7 @@ struct ShellSprings;
 /// One row is one shell. What is not of shells alone stands in the row of Structures that names it.
 struct Shells : RangeTable<Shells> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "shells";
+    CULLET_TABLE(shells);
     template <class T>
     using Own = RowColumn<Shells, T>;
     Own<Range> vertices{*this, "vertices"};  // first row is a multiple of 64
@@ -57,7 +57,7 @@ struct ColumnType<Float4> : ColumnLayout<Float4, Scalar::F32, 4> {};
 /// One row is one point of the outer surface; its inner twin is rest + depth * inward. 8 rows are one pack of a kernel.
 struct Vertices : RangeTable<Vertices, kVerticesPerCell> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "vertices";
+    CULLET_TABLE(vertices);
     Column<Vec3> rest{*this, "rest", "m"};     // body frame
     Column<Vec3> inward{*this, "inward"};      // unit
     Column<float> depth{*this, "depth", "m"};  // >= 0; 0 where no direction sees all faces
@@ -91,7 +91,7 @@ enum ElementFlag : uint8_t { kDegenerate = 1, kDead = 2, kIsTouched = 4 };
 /// One row is one prism (a, b, c, a', b', c'). Edge k runs from corner k to corner (k + 1) % 3.
 struct Elements : RangeTable<Elements, 16> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "elements";
+    CULLET_TABLE(elements);
     Column<std::array<uint32_t, 3>> corner{*this, "corner"};  // vertices, counter-clockwise from outside
     Column<std::array<uint32_t, 3>> neighbour{*this,
                                               "neighbour"};        // element across edge k, kNone at borders and cracks
@@ -133,7 +133,7 @@ struct Elements : RangeTable<Elements, 16> {
 /// y.du/dx.
 struct TriangleSprings : Table<TriangleSprings> {
     using Table::Table;
-    static constexpr const char* kName = "triangle_springs";
+    CULLET_TABLE(triangle_springs);
     Column<Vec3> axis_x{*this, "axis_x"};                       // along edge 0, unit
     Column<Vec3> axis_y{*this, "axis_y"};                       // in the plane, unit
     Column<Vec3> inverse_edges{*this, "inverse_edges", "1/m"};  // i0, i1, i2
@@ -148,7 +148,7 @@ struct TriangleSprings : Table<TriangleSprings> {
 /// One row is one interior edge that resists bending: theta = sum of gradient . u over its four vertices (B3).
 struct Hinges : RangeTable<Hinges, 16> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "hinges";
+    CULLET_TABLE(hinges);
     Column<std::array<uint32_t, 4>> vertex{*this,
                                            "vertex"};  // 0, 1: the edge; 2, 3: the corners opposite; [0] == kNone: dead
     Column<std::array<float, 12>> gradient{*this, "gradient", "1/m"};
@@ -159,7 +159,7 @@ struct Hinges : RangeTable<Hinges, 16> {
 /// One row is 8 vertices' share of the stiffness: f_i = sum_j K_ij (w_j - w_i), difference form (section 10).
 struct StiffnessPacks : RangeTable<StiffnessPacks, 8> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "stiffness_packs";
+    CULLET_TABLE(stiffness_packs);
     Column<uint32_t> first_block{*this, "first_block"};  // relative to the shell's blocks
     Column<uint16_t> block_count{*this, "block_count"};
     Column<uint16_t> block_capacity{*this, "block_capacity"};
@@ -183,12 +183,12 @@ struct alignas(32) StiffnessLink {
 };
 struct StiffnessBlocks : RangeTable<StiffnessBlocks> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "stiffness_blocks";
+    CULLET_TABLE(stiffness_blocks);
     Column<StiffnessBlock> block{*this, "block"};
 };
 struct StiffnessLinks : RangeTable<StiffnessLinks> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "stiffness_links";
+    CULLET_TABLE(stiffness_links);
     Column<StiffnessLink> link{*this, "link"};
 };
 

@@ -18,7 +18,7 @@ inline constexpr uint32_t kContactsAVertex = 2;
 /// One row is one body that can be awake: as long as the body lives.
 struct SoftBodies : Table<SoftBodies> {
     using Table::Table;
-    static constexpr const char* kName = "soft_bodies";
+    CULLET_TABLE(soft_bodies);
     Column<uint8_t> is_used{*this, "is_used"};
     Column<Row<Bodies>> body{*this, "body"};  // Bodies::soft says it again
     Column<uint8_t> is_awake{*this, "is_awake"};
@@ -70,7 +70,7 @@ struct SoftStriker {
 };
 struct SoftStrikers : Table<SoftStrikers> {
     using Table::Table;
-    static constexpr const char* kName = "soft_strikers";
+    CULLET_TABLE(soft_strikers);
     Column<SoftStriker> striker{*this, "striker", "1", Keep::Scratch};
 };
 
@@ -89,7 +89,7 @@ struct alignas(32) SoftContact {
 /// Rows from first_contact_row of the shell's first vertex on.
 struct SoftContacts : Table<SoftContacts> {
     using Table::Table;
-    static constexpr const char* kName = "soft_contacts";
+    CULLET_TABLE(soft_contacts);
     Column<SoftContact> contact{*this, "contact", "1", Keep::Scratch};
 };
 inline constexpr uint32_t first_contact_row(uint32_t vertex) {

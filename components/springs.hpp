@@ -27,7 +27,7 @@ inline SpringLayout spring_layout(bool has_layers, LayerLayout layout) {
 /// One row is the springs of one shell.
 struct ShellSprings : RangeTable<ShellSprings> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "shell_springs";
+    CULLET_TABLE(shell_springs);
     Column<uint8_t> is_used{*this, "is_used"};
     Column<Row<Structures>> structure{*this, "structure"};  // whose shell has them: Shells::springs says it again
     Column<Range> springs{*this, "springs"};
@@ -55,7 +55,7 @@ struct ShellSprings : RangeTable<ShellSprings> {
 /// One row is one spring along an edge, of the outer skin where there are two.
 struct Springs : RangeTable<Springs, 16> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "springs";
+    CULLET_TABLE(springs);
     Column<uint32_t> a{*this, "a"};                              // vertices; kNone in both: a row that is not used
     Column<uint32_t> b{*this, "b"};                              // a != b
     Column<uint32_t> element{*this, "element"};                  // the lowest that has the edge, kNone: of no element
@@ -71,7 +71,7 @@ struct Springs : RangeTable<Springs, 16> {
 /// One row is what two layers add to the spring in the same row: its inner skin, and what ties the skins.
 struct LayerSprings : RangeTable<LayerSprings, 16> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "layer_springs";
+    CULLET_TABLE(layer_springs);
     Column<float> inner_length{*this, "inner_length", "m"};    // at rest
     Column<float> inner_plastic{*this, "inner_plastic", "m"};  // where the inner skin's force is 0
     Column<float> inner_stiffness{*this, "inner_stiffness", "N/m"};
@@ -87,7 +87,7 @@ struct LayerSprings : RangeTable<LayerSprings, 16> {
 /// One row is the springs of the edges of the element in the same row of the shell's elements.
 struct ElementSprings : RangeTable<ElementSprings, 16> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "element_springs";
+    CULLET_TABLE(element_springs);
     Column<std::array<uint32_t, 3>> spring{*this, "spring"};  // of edge k; kNone: not made yet
     /// For the outer and the inner skin: plastic over cooked length, the mean of the springs that it had when it was
     /// re-meshed. 0: it never was.
@@ -97,7 +97,7 @@ struct ElementSprings : RangeTable<ElementSprings, 16> {
 /// One row is the list of 8 vertices.
 struct SpringPacks : RangeTable<SpringPacks, 8> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "spring_packs";
+    CULLET_TABLE(spring_packs);
     Column<uint32_t> first_slot{*this, "first_slot"};  // relative to the shell's slots
     Column<uint16_t> slot_count{*this, "slot_count"};
     Column<uint16_t> slot_capacity{*this, "slot_capacity"};
@@ -124,19 +124,19 @@ struct alignas(32) LayerSlot {
 };
 struct SpringSlots : RangeTable<SpringSlots> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "spring_slots";
+    CULLET_TABLE(spring_slots);
     Column<SpringSlot> slot{*this, "slot"};
 };
 struct LayerSlots : RangeTable<LayerSlots> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "layer_slots";
+    CULLET_TABLE(layer_slots);
     Column<LayerSlot> slot{*this, "slot"};
 };
 
 /// One row is the inner point of the vertex in the same row of the shell, and the internal spring between both.
 struct Twins : RangeTable<Twins, kVerticesPerCell> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "twins";
+    CULLET_TABLE(twins);
     Column<Float4, Buffers::Two> position{*this, "position", "m"};  // working frame; .w as Vertices.probe
     Column<Vec3> velocity{*this, "velocity", "m/s"};
     Column<float> mass_share{*this, "mass_share", "kg"};  // of each of the two points: a sixth of each element (B1)

@@ -8,7 +8,7 @@ namespace cullet {
 /// while none is.
 struct Squeezes : Table<Squeezes> {
     using Table::Table;
-    static constexpr const char* kName = "squeezes";
+    CULLET_TABLE(squeezes);
     Column<Row<Bodies>> body{*this, "body"};
     Column<Row<Bodies>> by{*this, "by"};               // who came, and moved
     Column<Row<Bodies>> against{*this, "against"};     // who stands on the other side

@@ -4,7 +4,7 @@ namespace cullet {
 
 State::State(const Limits& l)
     : TablesOfMaterials{l},
-      SoftRows(l, MaterialRows{materials, material_traits}),
+      WorldRows(l, MaterialRows{materials, material_traits}),
       TablesOfDebris{l},
       TablesOfBlows{l},
       TablesOfFragments{l} {

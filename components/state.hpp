@@ -3,8 +3,8 @@
 #include <string>
 
 #include "components/blows.hpp"
-#include "components/body_rows.hpp"
 #include "components/limits.hpp"
+#include "components/world_rows.hpp"
 
 namespace cullet {
 
@@ -34,8 +34,8 @@ struct TablesOfFragments {
 };
 
 /// Whoever holds it reaches everything. So systems and their helpers take only the tables that they need, or one of the
-/// sets of tables that it stands on: SoftRows, BodyRows, RunRows, ShellRows, SolidRows, StructureRows, MaterialRows.
-struct State : TablesOfMaterials, SoftRows, TablesOfDebris, TablesOfBlows, TablesOfFragments {
+/// sets of tables that it stands on: WorldRows, SoftRows, BodyRows, RunRows, ShellRows, StructureRows, MaterialRows.
+struct State : TablesOfMaterials, WorldRows, TablesOfDebris, TablesOfBlows, TablesOfFragments {
     explicit State(const Limits& limits = {});
 
     using TablesOfMaterials::materials, TablesOfMaterials::material_traits;
@@ -43,8 +43,8 @@ struct State : TablesOfMaterials, SoftRows, TablesOfDebris, TablesOfBlows, Table
     static constexpr bool kHoldsEveryTable = true;
     /// In the order of the hash and of files.
     using Sets = TypeList<TablesOfMaterials, TablesOfStructures, TablesOfShells, TablesOfMetal, TablesOfBodies,
-                          TablesOfSoftBodies, TablesOfDebris, TablesOfRuns, TablesOfBlows, TablesOfParts,
-                          TablesOfFragments, TablesOfSolids>;
+                          TablesOfSoftBodies, TablesOfDebris, TablesOfRuns, TablesOfLattices, TablesOfBlows,
+                          TablesOfParts, TablesOfFragments, TablesOfSolids>;
     /// Calls f(table) for each, in that order.
     template <class F>
     void for_each_table(F&& f) {
@@ -66,7 +66,7 @@ struct State : TablesOfMaterials, SoftRows, TablesOfDebris, TablesOfBlows, Table
     /// The table of type T.
     template <class T>
     T& table() {
-        return table_among<T>(*static_cast<decltype(set_with<T>(Sets{}))>(this));
+        return table_in<T>(*this);
     }
 
     const Limits& limits() const { return TablesOfMaterials::limits; }
@@ -98,13 +98,6 @@ struct State : TablesOfMaterials, SoftRows, TablesOfDebris, TablesOfBlows, Table
         return [&f](auto& table) {
             if constexpr (kIsRanged<decltype(table)>) f(table.pool);
         };
-    }
-    template <class T, class First, class... Rest>
-    static auto set_with(TypeList<First, Rest...>) {
-        if constexpr (kIsAmong<T, First>)
-            return static_cast<First*>(nullptr);
-        else
-            return set_with<T>(TypeList<Rest...>{});
     }
     uint64_t hash_pools(uint64_t seed) const;
 };

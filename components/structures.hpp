@@ -20,7 +20,7 @@ inline constexpr uint32_t kMostCellPoints = 128;  // corners of all of them
 /// One row is what a body is made of, or several are, and what breaks it.
 struct Structures : RangeTable<Structures> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "structures";
+    CULLET_TABLE(structures);
     template <class T>
     using Own = RowColumn<Structures, T>;
     /// What breaks it: its place in the world's list of damage models. Copies and pieces inherit it.
@@ -57,7 +57,7 @@ inline constexpr uint8_t kCracked = 1, kLeft = 2;
 /// shape (none where one hull or box stands for the structure).
 struct Cells : RangeTable<Cells> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "cells";
+    CULLET_TABLE(cells);
     Column<uint32_t> first_point{*this, "first_point"};  // relative to the shell's points
     Column<uint32_t> point_count{*this, "point_count"};  // <= 128; 0: the cell has lost all of its elements
     Column<std::array<uint8_t, kMostCellParts>> part_points{*this, "part_points"};  // of each hull in turn; sum: count
@@ -79,7 +79,7 @@ struct Cells : RangeTable<Cells> {
 /// margin.
 struct HullPoints : RangeTable<HullPoints> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "hull_points";
+    CULLET_TABLE(hull_points);
     Column<Vec3> point{*this, "point", "m"};
 };
 

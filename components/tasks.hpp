@@ -20,7 +20,7 @@ enum class TaskState : uint8_t {
 /// One row is one hit being worked off.
 struct Tasks : Table<Tasks> {
     using Table::Table;
-    static constexpr const char* kName = "tasks";
+    CULLET_TABLE(tasks);
     Column<uint8_t> state{*this, "state"};  // TaskState
     Column<Row<Bodies>> body{*this, "body"};
     Column<Row<Structures>> source{*this, "source"};    // the body's when it was hit
@@ -53,7 +53,7 @@ struct Tasks : Table<Tasks> {
 /// which are short hidden runs, have more beside it (QuickRuns).
 struct HiddenRuns : Table<HiddenRuns> {
     using Table::Table;
-    static constexpr const char* kName = "hidden_runs";
+    CULLET_TABLE(hidden_runs);
     Column<float> time_step{*this, "time_step", "s"};
     Column<float> damping_time{*this, "damping_time", "s"};        // beta = 0.15 dt
     Column<float> end_time{*this, "end_time", "s"};                // T of section 6.4
@@ -73,7 +73,7 @@ inline constexpr uint32_t kMostMarkedPacks = 4096;  // of one run: 32,768 vertic
 /// run its region, of a hidden one on a cut-out the vertices by its border. Bit k is vertex k.
 struct MarkedPacks : Table<MarkedPacks> {
     using Table::Table;
-    static constexpr const char* kName = "marked_packs";
+    CULLET_TABLE(marked_packs);
     Column<uint32_t> pack{*this, "pack"};
     Column<uint8_t> awake{*this, "awake"};  // moves; by a border: and is not cut
     /// Stays where it is, or by a border where the rest of the body has it. Of a region: its velocity is the impulse
@@ -109,7 +109,7 @@ inline constexpr uint32_t kMostPatchVertices =
 /// striker.
 struct TaskContacts : Table<TaskContacts> {
     using Table::Table;
-    static constexpr const char* kName = "task_contacts";
+    CULLET_TABLE(task_contacts);
     Column<uint32_t> vertex{*this, "vertex"};  // nearest to the contact point when the task opened
     Column<Vec3> point{*this, "point", "m"};   // body frame
     Column<Vec3> normal{*this, "normal"};      // unit, body axes: the way the striker pushes the body
@@ -142,7 +142,7 @@ struct TaskContacts : Table<TaskContacts> {
 /// then owns the place. That task is late from its start: the rigid solver has dealt with the contact.
 struct QueuedHits : Table<QueuedHits> {
     using Table::Table;
-    static constexpr const char* kName = "queued_hits";
+    CULLET_TABLE(queued_hits);
     Column<uint8_t> is_used{*this, "is_used"};
     Column<uint64_t> frame{*this, "frame"};  // of the hit
     Column<Row<Bodies>> body{*this, "body"};
@@ -158,7 +158,7 @@ struct QueuedHits : Table<QueuedHits> {
 /// One row is one vertex that a striker may push.
 struct PatchVertices : Table<PatchVertices> {
     using Table::Table;
-    static constexpr const char* kName = "patch_vertices";
+    CULLET_TABLE(patch_vertices);
     Column<uint32_t> vertex{*this, "vertex"};
     Column<float> stiffness{*this, "stiffness", "N/m"};                  // k_c w_i
     Column<float> crushed_stiffness{*this, "crushed_stiffness", "N/m"};  // of what has been crushed, as it unloads

@@ -1,12 +1,10 @@
 // Rows of solids come and go. What was cooked stays as long as anything has it.
-#include "components/tetrahedra.hpp"
-
-#include "components/shell_rows.hpp"
+#include "components/solid_rows.hpp"
 
 namespace cullet {
 namespace {
 
-void release_cooked(SolidRows& rows, Row<CookedSolids> cooked) {
+void release_cooked(SolidRows rows, Row<CookedSolids> cooked) {
     CookedSolids& all = rows.cooked_solids;
     CULLET_ASSERT(all.users[cooked] > 0, "cooked solid %u released more often than taken", cooked.index);
     if (--all.users[cooked] > 0) return;
@@ -18,8 +16,8 @@ void release_cooked(SolidRows& rows, Row<CookedSolids> cooked) {
 
 /// Fills ranges of `to` from those of `from`, which were listed in the same order.
 struct RangeCopy {
-    SolidRows& to;
-    const SolidRows& from;
+    SolidRows to;
+    Read<SolidRows> from;
     std::array<Range, 16> given = {};
     uint32_t at = 0;
 
@@ -29,12 +27,11 @@ struct RangeCopy {
         CULLET_ASSERT(found.count <= range.capacity, "copy of %s: %u rows do not fit %u", table.name(), found.count,
                       range.capacity);
         range.count = found.count;
-        if (found.count)
-            table.copy_rows(table_in<Rows>(const_cast<SolidRows&>(from)), found.first, range.first, found.count);
+        if (found.count) table.copy_rows(table_in<Rows>(from), found.first, range.first, found.count);
     }
 };
 
-Row<CookedSolids> import_cooked(SolidRows& to, const SolidRows& from, Row<CookedSolids> source, const char** full) {
+Row<CookedSolids> import_cooked(SolidRows to, Read<SolidRows> from, Row<CookedSolids> source, const char** full) {
     const CookedRoom room = room_of(from, source);
     const Row<CookedSolids> copy = make_cooked(to, room, full);
     if (!copy.exists()) return copy;
@@ -56,7 +53,7 @@ Row<CookedSolids> import_cooked(SolidRows& to, const SolidRows& from, Row<Cooked
 
 }  // namespace
 
-Row<CookedSolids> make_cooked(SolidRows& rows, const CookedRoom& room, const char** full) {
+Row<CookedSolids> make_cooked(SolidRows rows, const CookedRoom& room, const char** full) {
     Range taken;
     if (!rows.cooked_solids.take(1, taken)) {
         if (full) *full = "limits.models";
@@ -75,7 +72,7 @@ Row<CookedSolids> make_cooked(SolidRows& rows, const CookedRoom& room, const cha
     return {};
 }
 
-CookedRoom room_of(const SolidRows& rows, Row<CookedSolids> cooked) {
+CookedRoom room_of(Read<SolidRows> rows, Row<CookedSolids> cooked) {
     const CookedSolids& own = rows.cooked_solids;
     CookedRoom room;
     room.lattice_points = own.lattice_points[cooked].count;
@@ -92,7 +89,7 @@ CookedRoom room_of(const SolidRows& rows, Row<CookedSolids> cooked) {
     return room;
 }
 
-Row<Structures> make_solid(SolidRows& rows, Row<CookedSolids> cooked, const SolidRoom& room, const char** full) {
+Row<Structures> make_solid(SolidRows rows, Row<CookedSolids> cooked, const SolidRoom& room, const char** full) {
     Structures& structures = rows.structures;
     Range row, solid_row;
     if (!structures.take(1, row)) {
@@ -123,7 +120,7 @@ Row<Structures> make_solid(SolidRows& rows, Row<CookedSolids> cooked, const Soli
     return {};
 }
 
-SolidRoom solid_room_of(const SolidRows& rows, Row<Structures> structure) {
+SolidRoom solid_room_of(Read<SolidRows> rows, Row<Structures> structure) {
     const Row<Solids> solid = solid_of(rows.structures, structure);
     const Solids& own = rows.solids;
     return {own.members[solid].count,
@@ -134,7 +131,7 @@ SolidRoom solid_room_of(const SolidRows& rows, Row<Structures> structure) {
             rows.structures.points[structure].count};
 }
 
-void release_solid(SolidRows& rows, Row<Structures> structure) {
+void release_solid(SolidRows rows, Row<Structures> structure) {
     Structures& structures = rows.structures;
     CULLET_ASSERT(structures.users[structure] > 0, "structure %u released more often than taken", structure.index);
     if (--structures.users[structure] > 0) return;
@@ -148,10 +145,10 @@ void release_solid(SolidRows& rows, Row<Structures> structure) {
     structures.pool.give_back(structure, 1);
 }
 
-Row<Structures> import_solid(SolidRows& to, const SolidRows& from, Row<Structures> source, const char** full) {
+Row<Structures> import_solid(SolidRows to, Read<SolidRows> from, Row<Structures> source, const char** full) {
     const Row<Solids> given = solid_of(from.structures, source);
     Row<CookedSolids> cooked = from.solids.cooked[given];
-    const bool is_foreign = &to != &from;
+    const bool is_foreign = &to.solids != &from.solids;
     if (is_foreign) cooked = import_cooked(to, from, cooked, full);
     if (!cooked.exists()) return {};
     if (is_foreign) to.cooked_solids.users[cooked] = 1;  // until it is handed on

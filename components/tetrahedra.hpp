@@ -17,7 +17,7 @@ struct SolidRooms;  // systems/structures/tetrahedra/solid_rooms.hpp
 /// One row is one cooked mesh.
 struct CookedSolids : RangeTable<CookedSolids> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "cooked_solids";
+    CULLET_TABLE(cooked_solids);
     Column<uint32_t> users{*this, "users"};  // rows of Solids that name it; 0: free
     /// Of what it holds: whatever is made of it and kept beside the tables is looked up by this.
     Column<uint64_t> content{*this, "content"};
@@ -47,7 +47,7 @@ struct CookedSolids : RangeTable<CookedSolids> {
 /// One row is one point of a lattice of fine tetrahedra.
 struct LatticeNodes : RangeTable<LatticeNodes> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "lattice_nodes";
+    CULLET_TABLE(lattice_nodes);
     Column<Vec3d> place{*this, "place", "m"};                // as cooked
     Column<uint32_t> first_winding{*this, "first_winding"};  // of PointWindings
     Column<uint32_t> winding_count{*this, "winding_count"};
@@ -55,25 +55,25 @@ struct LatticeNodes : RangeTable<LatticeNodes> {
 /// One row says how often one part of the mesh winds around a point.
 struct PointWindings : RangeTable<PointWindings> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "point_windings";
+    CULLET_TABLE(point_windings);
     Column<uint32_t> part{*this, "part"};
     Column<uint32_t> count{*this, "count"};  // two's complement
 };
 struct Tetrahedra : RangeTable<Tetrahedra> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "tetrahedra";
+    CULLET_TABLE(tetrahedra);
     Column<std::array<uint32_t, 4>> corners{*this, "corners"};  // of positive volume; neighbours follow from them
     Column<uint32_t> coarse{*this, "coarse"};
 };
 struct CoarseTetrahedra : RangeTable<CoarseTetrahedra> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "coarse_tetrahedra";
+    CULLET_TABLE(coarse_tetrahedra);
     Column<std::array<uint32_t, 10>> nodes{*this, "nodes"};  // TenNodes
 };
 /// Cells of solids; those of structures are chunks of a collision shape.
 struct SolidCellRows : RangeTable<SolidCellRows> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "solid_cells";
+    CULLET_TABLE(solid_cells);
     Column<uint32_t> tetrahedron{*this, "tetrahedron"};
     Column<double> volume{*this, "volume", "m3"};
     Column<Vec3d> centroid{*this, "centroid", "m"};
@@ -81,7 +81,7 @@ struct SolidCellRows : RangeTable<SolidCellRows> {
 /// By tetrahedron: what it held before small cells were merged.
 struct RawCellRows : RangeTable<RawCellRows> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "raw_cells";
+    CULLET_TABLE(raw_cells);
     Column<uint32_t> tetrahedron{*this, "tetrahedron"};
     Column<uint32_t> cell{*this, "cell"};
     Column<Vec3d> centroid{*this, "centroid", "m"};
@@ -89,7 +89,7 @@ struct RawCellRows : RangeTable<RawCellRows> {
 /// By cell: what it has in one coarse tetrahedron.
 struct SolidMoments : RangeTable<SolidMoments> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "solid_moments";
+    CULLET_TABLE(solid_moments);
     Column<uint32_t> cell{*this, "cell"};
     Column<uint32_t> coarse{*this, "coarse"};
     Column<std::array<double, 10>> moments{*this, "moments", "m3"};
@@ -97,7 +97,7 @@ struct SolidMoments : RangeTable<SolidMoments> {
 /// By (a, b): the inside part of a face between two cells.
 struct SolidBondRows : RangeTable<SolidBondRows> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "solid_bonds";
+    CULLET_TABLE(solid_bonds);
     Column<uint32_t> a{*this, "a"};
     Column<uint32_t> b{*this, "b"};
     Column<uint32_t> tetrahedron{*this, "tetrahedron"};
@@ -109,7 +109,7 @@ struct SolidBondRows : RangeTable<SolidBondRows> {
 /// By triangle: the part of it that lies in one cell.
 struct SolidPatches : RangeTable<SolidPatches> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "solid_patches";
+    CULLET_TABLE(solid_patches);
     Column<uint32_t> triangle{*this, "triangle"};
     Column<uint32_t> cell{*this, "cell"};
     Column<double> area{*this, "area", "m2"};
@@ -118,7 +118,7 @@ struct SolidPatches : RangeTable<SolidPatches> {
 /// What a mesh that is cut again needs beyond its skin.
 struct MeshTriangles : RangeTable<MeshTriangles> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "mesh_triangles";
+    CULLET_TABLE(mesh_triangles);
     Column<std::array<uint32_t, 3>> sides{*this, "sides"};  // ClosedMesh::sides; the ends of pairs follow
     Column<uint32_t> part{*this, "part"};
 };
@@ -126,14 +126,14 @@ struct MeshTriangles : RangeTable<MeshTriangles> {
 /// One row is a corner of a closed surface, once each.
 struct SkinPoints : RangeTable<SkinPoints> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "skin_points";
+    CULLET_TABLE(skin_points);
     Column<Vec3d> place{*this, "place", "m"};
     Column<uint32_t> tetrahedron{*this, "tetrahedron"};  // of the cooked mesh: where it lies; of pieces kNone
 };
 /// One row is one triangle of what is drawn and weighed: of the artist's mesh, of what closed it, or of a crack.
 struct SkinTriangles : RangeTable<SkinTriangles> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "skin_triangles";
+    CULLET_TABLE(skin_triangles);
     Column<std::array<uint32_t, 3>> corners{*this, "corners"};  // counter-clockwise from outside
     Column<std::array<float, 9>> normals{*this, "normals"};     // unit, of each corner
     Column<std::array<float, 6>> uv{*this, "uv"};
@@ -144,7 +144,7 @@ struct SkinTriangles : RangeTable<SkinTriangles> {
 /// One row is what one structure of this kind is: StructureKind::Tetrahedra.
 struct Solids : RangeTable<Solids> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "solids";
+    CULLET_TABLE(solids);
     Column<Row<CookedSolids>> cooked{*this, "cooked"};
     Column<uint8_t> is_whole{*this, "is_whole"};  // all cells, nothing moved, the cooked skin: it has no ranges
     Column<double> volume{*this, "volume", "m3"};
@@ -156,14 +156,14 @@ struct Solids : RangeTable<Solids> {
 /// By cell: one that the structure has.
 struct SolidMembers : RangeTable<SolidMembers> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "solid_members";
+    CULLET_TABLE(solid_members);
     Column<uint32_t> cell{*this, "cell"};
     Column<uint32_t> piece{*this, "piece"};  // what broke and found no room yet: cells of one number go together
 };
 /// By point: one that crack faces moved.
 struct MovedNodes : RangeTable<MovedNodes> {
     using RangeTable::RangeTable;
-    static constexpr const char* kName = "moved_nodes";
+    CULLET_TABLE(moved_nodes);
     Column<uint32_t> node{*this, "node"};
     Column<Vec3d> place{*this, "place", "m"};
 };

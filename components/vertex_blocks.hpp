@@ -14,7 +14,7 @@ enum class BlockSums : uint8_t { NotKept = 0, Outdated, Known };
 /// give it, and measure_blocks writes it. Rows are written in place up to the limit and never appended.
 struct VertexBlocks : Table<VertexBlocks> {
     using Table::Table;
-    static constexpr const char* kName = "vertex_blocks";
+    CULLET_TABLE(vertex_blocks);
     static constexpr bool kIsDerived = true;
     Column<uint8_t> sums{*this, "sums", "1", Keep::Scratch};  // BlockSums: what the rest of the row is
     Column<uint8_t> pinned_count{*this, "pinned_count", "1", Keep::Scratch};

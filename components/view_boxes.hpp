@@ -12,7 +12,7 @@ inline constexpr uint32_t kViewGranule = 16;  // ranges of view_indices begin at
 /// is no part of a world's state: a drawn mesh gives it. Rows are written in place up to the limit, never appended.
 struct ViewBoxes : Table<ViewBoxes> {
     using Table::Table;
-    static constexpr const char* kName = "view_boxes";
+    CULLET_TABLE(view_boxes);
     Column<std::array<float, 6>> box{*this, "box", "m", Keep::Scratch};     // low, then high
     Column<uint8_t> is_outdated{*this, "is_outdated", "1", Keep::Scratch};  // a triangle of it was redrawn
 };

@@ -2,6 +2,7 @@
 
 namespace cullet {
 
-Workbench::Workbench(const Limits& limits) : RunRows(limits, MaterialRows{materials, material_traits}) {}
+Workbench::Workbench(const Limits& limits)
+    : RunRows(limits, MaterialRows{materials, material_traits}), TablesOfMetal{limits}, TablesOfSolids{limits} {}
 
 }  // namespace cullet

@@ -13,6 +13,7 @@
 
 #include "engine/assert.hpp"
 #include "engine/memory.hpp"
+#include "engine/tables.hpp"
 
 namespace cullet {
 
@@ -24,6 +25,8 @@ class ScratchMemory {
     /// finds none gets one of the system's; nobody waits, since all that wait may hold what the others wait for.
     static constexpr size_t kBlocks = 128;
     static constexpr size_t kBlockBytes = 160 * 1024;
+    static constexpr bool kIsWorkingMemory = true;  // for systems
+    CULLET_NAMED(scratch);
 
     ScratchMemory() : memory_(reserve_memory(kBlocks * kBlockBytes)) {}
     ~ScratchMemory() { release_memory(memory_, kBlocks * kBlockBytes); }

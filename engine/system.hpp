@@ -5,8 +5,8 @@
 //     InOut<&T::column>  reads and writes the rows it was given
 //     Table&, const Table&, Resource&, const Resource&   the whole of it: writes, or reads
 //     Set&, const Set&   all tables of a set and of those that it stands on: RunRows : ShellRows : ...
-//     InChunks<Set>      the same for a parallel system, which writes the rows of its own chunk alone
-//     a group of these (table_group.hpp)                 by value
+//     Tables<T, const U>, a group (tables.hpp, table_group.hpp)   by value: several of these
+//     InChunks<...>      a set or list for a parallel system, which writes the rows of its own chunk alone
 //     Step and other plain values                        by value
 //
 // and exactly one of these says how often it is called, on what:
@@ -305,7 +305,9 @@ struct Parameter<P> {
     using Plain = std::remove_cvref_t<P>;
     static constexpr bool kWrites = !std::is_const_v<std::remove_reference_t<P>>;
     static void describe(std::vector<Access>& list) {
-        if constexpr (IsTableSet<P>)
+        if constexpr (IsWorkingMemory<P>)
+            return;
+        else if constexpr (IsTableSet<P>)
             describe_set(list);
         else if constexpr (IsTable<P>)
             list.push_back({Plain::kName, true, kWrites, false, Access::Kind::Table});
@@ -317,7 +319,7 @@ struct Parameter<P> {
     static P bind(Call<W>& call) {
         if constexpr (IsTableSet<P>)
             return call.world.template set<Plain>();
-        else if constexpr (IsTable<P>)
+        else if constexpr (IsTable<P> || IsWorkingMemory<P>)
             return call.world.template table<Plain>();
         else
             return call.world.template resource<Plain>();
@@ -330,7 +332,15 @@ struct Parameter<P> {
             Parameter<std::conditional_t<kWrites, Below&, const Below&>>::describe(list);
         else
             Parameter<Below>::describe(list);
-        describe_tables(list, table_set::TypesOf<typename Plain::Own>{});
+        describe_own(list, TypeList<typename Plain::Own>{});
+    }
+    template <class Own>
+    static void describe_own(std::vector<Access>& list, TypeList<Own>) {
+        describe_tables(list, table_set::TypesOf<Own>{});
+    }
+    template <class... Own>
+    static void describe_own(std::vector<Access>& list, TypeList<TypeList<Own...>>) {
+        (describe_tables(list, table_set::TypesOf<Own>{}), ...);
     }
     template <class... T>
     static void describe_tables(std::vector<Access>& list, TypeList<T...>) {
@@ -350,19 +360,22 @@ requires(!std::is_lvalue_reference_v<P> && std::is_same_v<P, Step>) struct Param
     }
 };
 
-/// A set in a system that is called once a chunk of rows: it reads what it likes, and writes what belongs to its rows.
-template <IsTableSet Set>
+/// A set, or a list of tables, in a system that is called once a chunk of rows: it reads what it likes, and writes what
+/// belongs to its rows.
+template <class Set>
 struct InChunks {
-    explicit InChunks(Set& s) : set(s) {}
-    Set* operator->() const { return &set; }
-    Set& set;
+    using Held = std::conditional_t<kIsTables<Set>, Set, Set&>;
+    explicit InChunks(Held s) : set(s) {}
+    Set* operator->() { return &set; }
+    Held set;
 };
 template <class Set>
 struct Parameter<InChunks<Set>> {
-    static void describe(std::vector<Access>& list) { Parameter<Set&>::describe(list); }
+    using Held = typename InChunks<Set>::Held;
+    static void describe(std::vector<Access>& list) { Parameter<Held>::describe(list); }
     template <class W>
     static InChunks<Set> bind(Call<W>& call) {
-        return InChunks<Set>(Parameter<Set&>::bind(call));
+        return InChunks<Set>(Parameter<Held>::bind(call));
     }
 };
 
@@ -452,7 +465,8 @@ struct Signature<void (*)(P...)> {
         kKind == CallKind::Serial || !(... || races_with_any<P>()),
         "a parallel system reads any row of what it writes: declare the column Buffers::Two, and no whole table");
     template <class A>
-    static constexpr bool kChanges = std::is_lvalue_reference_v<A> && !std::is_const_v<std::remove_reference_t<A>>;
+    static constexpr bool kChanges =
+        std::is_lvalue_reference_v<A> && !std::is_const_v<std::remove_reference_t<A>> && !IsWorkingMemory<A>;
     /// Of what a parameter brings: itself, or a group's members.
     template <class A>
     static constexpr bool changes_any() {

@@ -2,6 +2,7 @@
 //
 //     struct Springs : Table<Springs> {
 //         using Table::Table;
+//         CULLET_TABLE(springs);
 //         Column<Row<Vertices>> a{*this, "a"};
 //         Column<float> rest_length{*this, "rest_length", "m"};
 //     };
@@ -22,8 +23,14 @@
 #include "engine/hash.hpp"
 #include "engine/math.hpp"
 #include "engine/memory.hpp"
+#include "engine/tables.hpp"
 
 namespace cullet {
+
+/// A table's name, in files and as a member of what has it (tables.hpp).
+#define CULLET_TABLE(table_name)                      \
+    static constexpr const char* kName = #table_name; \
+    CULLET_NAMED(table_name)
 
 inline constexpr uint32_t kNone = 0xffffffffu;
 

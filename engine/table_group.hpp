@@ -8,6 +8,8 @@
 //     };
 //     void start_tasks(Each<TaskOpened> opened, ShellMesh mesh, TaskRuns runs);
 //
+// A list of tables (tables.hpp) is a group, too, and grows narrow by itself where a smaller one is wanted.
+//
 // narrow<Smaller>(larger, ...) gives a helper less, and never more: what the arguments do not hold, or hold as const,
 // does not compile. So the parameters of a function are all that it reaches.
 #pragma once
@@ -15,6 +17,7 @@
 #include <utility>
 
 #include "engine/members.hpp"
+#include "engine/tables.hpp"
 
 namespace cullet {
 
@@ -22,8 +25,12 @@ namespace group {
 
 /// f(Member<..>...), in the order of declaration.
 template <class G, class F>
-constexpr decltype(auto) visit(G& g, F&& f) {
+requires(!kIsTables<std::remove_const_t<G>>) constexpr decltype(auto) visit(G& g, F&& f) {
     return members::visit<members::AnyReference>(g, std::forward<F>(f));
+}
+template <class... T, class F>
+constexpr decltype(auto) visit(const Tables<T...>& of, F&& f) {
+    return f(members::Member<T&>{tables::Member<T>::of(of)}...);
 }
 struct ListTypes {
     template <class... M>
@@ -48,7 +55,9 @@ constexpr bool are_references_or_groups(TypeList<T...>) {
 }
 template <class T>
 constexpr bool is_group() {
-    if constexpr (!std::is_class_v<T> || !std::is_aggregate_v<T> || std::is_empty_v<T>)
+    if constexpr (kIsTables<std::remove_const_t<T>>)
+        return true;
+    else if constexpr (!std::is_class_v<T> || !std::is_aggregate_v<T> || std::is_empty_v<T>)
         return false;
     else if constexpr (members::count_of<T, members::AnyReference>() == 0)
         return false;

@@ -6,7 +6,7 @@
 //     };
 //     struct BondRows : ShellRows, TablesOfBonds {
 //         using Below = ShellRows;
-//         using Own = TablesOfBonds;
+//         using Own = TablesOfBonds;  // or a list of such structs
 //     };
 //
 // One line adds a table: what systems reach, files, hash and checks follow from it.
@@ -54,34 +54,6 @@ struct ListTypes {
 template <class Tables>
 using TypesOf = decltype(members::visit<members::AnyValue>(std::declval<Tables&>(), ListTypes{}));
 
-template <class T, class... Held>
-constexpr bool is_among(TypeList<Held...>) {
-    return (... || std::is_same_v<T, Held>);
-}
-
 }  // namespace table_set
-
-/// Whether a plain struct of tables holds a T.
-template <class T, class Tables>
-inline constexpr bool kIsAmong = table_set::is_among<T>(table_set::TypesOf<Tables>{});
-/// That table.
-template <class T, class Tables>
-requires kIsAmong<T, Tables> T& table_among(Tables& tables) {
-    T* found = nullptr;
-    for_each_table_of(tables, [&found](auto& table) {
-        if constexpr (std::is_same_v<decltype(table), T&>) found = &table;
-    });
-    return *found;
-}
-
-/// The table of type T in a set.
-template <class T, IsTableSet Set>
-T& table_in(Set& set) {
-    using Own = typename Set::Own;
-    if constexpr (kIsAmong<T, Own>)
-        return table_among<T>(static_cast<Own&>(set));
-    else
-        return table_in<T>(static_cast<typename Set::Below&>(set));
-}
 
 }  // namespace cullet

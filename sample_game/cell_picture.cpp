@@ -15,10 +15,10 @@ struct CellMesh {
     std::vector<uint32_t> indices;
 };
 
-std::vector<CellMesh> meshes_of(const ShellRows& rows, Row<Structures> structure) {
+std::vector<CellMesh> meshes_of(const Workbench& rows, Row<Structures> structure) {
     const Row<Shells> shell = rows.shell_of(structure);
     const Range vertices = rows.shells.vertices[shell], elements = rows.shells.elements[shell];
-    const Row<MetalShells> metal = rows.metal_of(structure);
+    const Row<MetalShells> metal = metal_of(rows, structure);
     std::vector<CellMesh> cells;
     for (uint32_t e = 0; e < elements.count; ++e) {
         const uint32_t row = elements.first + e;

@@ -68,8 +68,8 @@ std::string picture_path(const CookOptions& options) {
 
 /// Of sheet metal, what stands for strength.
 std::string metal_of(const Model& model) {
-    const ShellRows& rows = model.contents->state;
-    const Row<MetalShells> metal = rows.metal_of(model.contents->shell);
+    const Workbench& rows = model.contents->state;
+    const Row<MetalShells> metal = cullet::metal_of(rows, model.contents->shell);
     const double pressure = static_cast<double>(rows.metal_shells.crush_pressure[metal]);
     return fmt::format(
         "{} sub-shells; dents, {}", rows.metal_shells.cells[metal].count,

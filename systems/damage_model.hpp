@@ -43,9 +43,9 @@ class DamageModel {
     template <auto Most, auto Wanted, auto Grant>
     DamageModel& moves_each_frame(const char* zone) {
         frame_zone_ = zone;
-        calls_.most_moving = [](const SoftRows& rows) { return Most(rows); };
-        calls_.wanted = [](const SoftRows& rows) { return Wanted(rows); };
-        calls_.grant = [](SoftRows& rows, uint64_t units, uint64_t& slow_frames) {
+        calls_.most_moving = [](const WorldRows& rows) { return Most(rows); };
+        calls_.wanted = [](const WorldRows& rows) { return Wanted(rows); };
+        calls_.grant = [](WorldRows& rows, uint64_t units, uint64_t& slow_frames) {
             return Grant(rows, units, slow_frames);
         };
         return *this;
@@ -53,23 +53,23 @@ class DamageModel {
     /// `Cancel(rows, task)`: rows that the model holds for a task go back.
     template <auto Cancel>
     DamageModel& cancels() {
-        calls_.cancel = [](RunRows& rows, Row<Tasks> task) { Cancel(rows, task); };
+        calls_.cancel = [](WorldRows& rows, Row<Tasks> task) { Cancel(rows, task); };
         return *this;
     }
     /// `Energy(rows, body, gravity)` of a body that the model moves by itself; none of one that is rigid.
     template <auto Energy>
     DamageModel& has_energy() {
-        calls_.energy = [](SoftRows& rows, Row<Bodies> body, Vec3 gravity) { return Energy(rows, body, gravity); };
+        calls_.energy = [](WorldRows& rows, Row<Bodies> body, Vec3 gravity) { return Energy(rows, body, gravity); };
         return *this;
     }
     /// Blows of the game on a body that the model can move by itself: `Push(rows, rigid, body, push)`, and
     /// `Explode(rows, rigid, body, explosion)`. False: it cannot, and nothing happened.
     template <auto Push, auto Explode>
     DamageModel& takes_blows() {
-        calls_.push = [](SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const PointPush& push) {
+        calls_.push = [](WorldRows& rows, RigidWorld& rigid, Row<Bodies> body, const PointPush& push) {
             return Push(rows, rigid, body, push);
         };
-        calls_.explode = [](SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) {
+        calls_.explode = [](WorldRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) {
             return Explode(rows, rigid, body, explosion);
         };
         return *this;
@@ -105,7 +105,7 @@ class DamageModel {
     /// returns the rows that the first hit on it takes.
     template <auto Body>
     DamageModel& spawns() {
-        calls_.spawn_body = [](SoftRows& rows, Row<Bodies> body, const Spawning& spawning) {
+        calls_.spawn_body = [](WorldRows& rows, Row<Bodies> body, const Spawning& spawning) {
             return Body(rows, body, spawning);
         };
         return *this;
@@ -114,13 +114,13 @@ class DamageModel {
     /// cut glass". Null: the model has no other reason than the game has.
     template <auto Why>
     DamageModel& says_why_not_cut() {
-        calls_.why_not_cut = [](const BodyRows& rows, Row<Bodies> body) -> const char* { return Why(rows, body); };
+        calls_.why_not_cut = [](const WorldRows& rows, Row<Bodies> body) -> const char* { return Why(rows, body); };
         return *this;
     }
     /// Before that. `Shell(rows, source, spawning)`: the cooked shell, which bodies share, or one of the body's own.
     template <auto Shell>
     DamageModel& spawns_own() {
-        calls_.spawn_structure = [](SoftRows& rows, Row<Structures> source, const Spawning& spawning) {
+        calls_.spawn_structure = [](WorldRows& rows, Row<Structures> source, const Spawning& spawning) {
             return Shell(rows, source, spawning);
         };
         return *this;
@@ -129,7 +129,7 @@ class DamageModel {
     /// the restitution that its contacts have then at least.
     template <auto Nothing>
     DamageModel& passes_over() {
-        calls_.leaves_nothing = [](BodyRows& rows, const Knock& knock, float& bounce) {
+        calls_.leaves_nothing = [](WorldRows& rows, const Knock& knock, float& bounce) {
             return Nothing(rows, knock, bounce);
         };
         return *this;
@@ -138,24 +138,24 @@ class DamageModel {
     /// task for that, whose only contact says where. `Width(rows, body)`: m, to which it can be pressed flat.
     template <auto Note, auto Width>
     DamageModel& yields_to_presses() {
-        calls_.is_pressed = [](BodyRows& rows, Row<Bodies> body, const Press& press) {
+        calls_.is_pressed = [](WorldRows& rows, Row<Bodies> body, const Press& press) {
             return Note(rows, body, press);
         };
-        calls_.least_width = [](const BodyRows& rows, Row<Bodies> body) { return double{Width(rows, body)}; };
+        calls_.least_width = [](const WorldRows& rows, Row<Bodies> body) { return double{Width(rows, body)}; };
         return *this;
     }
     /// Rows for a task that opens. `Shell(rows, body)` is a WorkingCopy; `Begin(rows, task)` fills
     /// what the model keeps for it.
     template <auto Shell, auto Begin>
     DamageModel& takes() {
-        calls_.working_copy = [](BodyRows& rows, Row<Bodies> body) { return Shell(rows, body); };
-        calls_.begin = [](BodyRows& rows, Row<Tasks> task) { Begin(rows, task); };
+        calls_.working_copy = [](WorldRows& rows, Row<Bodies> body) { return Shell(rows, body); };
+        calls_.begin = [](WorldRows& rows, Row<Tasks> task) { Begin(rows, task); };
         return *this;
     }
     /// `GiveLate(rows, blows, task, full)` gives rows to one that waited for its contacts: false, there is no room.
     template <auto GiveLate>
     DamageModel& takes_late() {
-        calls_.give_late = [](BodyRows& rows, const Blows& blows, Row<Tasks> task, const char** full) {
+        calls_.give_late = [](WorldRows& rows, const Blows& blows, Row<Tasks> task, const char** full) {
             return GiveLate(rows, blows, task, full);
         };
         return *this;
@@ -164,38 +164,38 @@ class DamageModel {
     /// beside the body's even when nothing else is there, so that a hit need not wait for it.
     template <auto Room, auto MayFind>
     DamageModel& needs_room() {
-        calls_.room = [](BodyRows& rows, Row<Bodies> body) { return Room(rows, body); };
-        calls_.may_find_room = [](const BodyRows& rows, Row<Bodies> body) { return MayFind(rows, body); };
+        calls_.room = [](WorldRows& rows, Row<Bodies> body) { return Room(rows, body); };
+        calls_.may_find_room = [](const WorldRows& rows, Row<Bodies> body) { return MayFind(rows, body); };
         return *this;
     }
     /// `Length(rows, body)`: a RunLength, none where runs are over before anything presses on.
     template <auto Length>
     DamageModel& lasts() {
-        calls_.length = [](const BodyRows& rows, Row<Bodies> body) { return Length(rows, body); };
+        calls_.length = [](const WorldRows& rows, Row<Bodies> body) { return Length(rows, body); };
         return *this;
     }
     /// `IsPart(rows, task)`: the task's shell is a part of its body's.
     template <auto IsPart>
     DamageModel& works_on_parts() {
-        calls_.is_part = [](const RunRows& rows, uint32_t task) { return IsPart(rows, task); };
+        calls_.is_part = [](const WorldRows& rows, uint32_t task) { return IsPart(rows, task); };
         return *this;
     }
     /// `Motion(rows, task)`: how the rest of a body moves that was hit on a part of it, once that part is back in it.
     template <auto Motion>
     DamageModel& moves_rest() {
-        calls_.motion_of_rest = [](const RunRows& rows, Row<Tasks> task) { return Motion(rows, task); };
+        calls_.motion_of_rest = [](const WorldRows& rows, Row<Tasks> task) { return Motion(rows, task); };
         return *this;
     }
     /// `Inherit(rows, parent, piece)`: what the model keeps of a body goes on to a new piece of it.
     template <auto Inherit>
     DamageModel& inherits() {
-        calls_.inherit = [](BodyRows& rows, Row<Bodies> parent, Row<Bodies> piece) { Inherit(rows, parent, piece); };
+        calls_.inherit = [](WorldRows& rows, Row<Bodies> parent, Row<Bodies> piece) { Inherit(rows, parent, piece); };
         return *this;
     }
     /// `Keeps(rows, body)`: a run on a copy of the body leaves the cells that did not change under their names.
     template <auto Keeps>
     DamageModel& keeps_cell_names() {
-        calls_.keeps_cell_names = [](const BodyRows& rows, Row<Bodies> body) { return Keeps(rows, body); };
+        calls_.keeps_cell_names = [](const WorldRows& rows, Row<Bodies> body) { return Keeps(rows, body); };
         return *this;
     }
     /// Bodies that the model moves by itself may tear. `IsMoving(rows, body)` says whether it does; of such a body
@@ -203,47 +203,46 @@ class DamageModel {
     /// pieces nobody has looked for, each once; a row that does not exist: there is none left.
     template <auto IsMoving, auto LookForPieces, auto Take>
     DamageModel& may_tear() {
-        calls_.is_moving = [](const SoftRows& rows, Row<Bodies> body) { return IsMoving(rows, body); };
-        calls_.look_for_pieces = [](SoftRows& rows, Row<Bodies> body) { LookForPieces(rows, body); };
-        calls_.take_torn = [](SoftRows& rows) { return Take(rows); };
+        calls_.is_moving = [](const WorldRows& rows, Row<Bodies> body) { return IsMoving(rows, body); };
+        calls_.look_for_pieces = [](WorldRows& rows, Row<Bodies> body) { LookForPieces(rows, body); };
+        calls_.take_torn = [](WorldRows& rows) { return Take(rows); };
         return *this;
     }
     /// Of a body that tore: `HandOff(rows, torn, fragments)` finds how the fragments move, `Give(rows, torn,
     /// fragments)` makes the new bodies move by themselves, `Keep(rows, rigid, body)` lets the rest go on.
     template <auto HandOff, auto Give, auto Keep>
     DamageModel& tears() {
-        calls_.hand_off_torn = [](const SoftRows& rows, const Break& torn, Fragments& fragments) {
+        calls_.hand_off_torn = [](const WorldRows& rows, const Break& torn, Fragments& fragments) {
             HandOff(rows, torn, fragments);
         };
-        calls_.give_torn = [](SoftRows& rows, const Break& torn, const Fragments& fragments) {
+        calls_.give_torn = [](WorldRows& rows, const Break& torn, const Fragments& fragments) {
             Give(rows, torn, fragments);
         };
-        calls_.keep_torn = [](SoftRows& rows, RigidWorld& rigid, Row<Bodies> body) { Keep(rows, rigid, body); };
+        calls_.keep_torn = [](WorldRows& rows, RigidWorld& rigid, Row<Bodies> body) { Keep(rows, rigid, body); };
         return *this;
     }
     /// `Follow(rows, body)`: the game has put a body elsewhere, or given it another motion. `Release(rows, body)`: what
     /// the model keeps for a body goes; the body is no concern of it any more.
     template <auto Follow, auto Release>
     DamageModel& keeps_for_bodies() {
-        calls_.follow = [](SoftRows& rows, Row<Bodies> body) { Follow(rows, body); };
-        calls_.release = [](SoftRows& rows, Row<Bodies> body) { Release(rows, body); };
+        calls_.follow = [](WorldRows& rows, Row<Bodies> body) { Follow(rows, body); };
+        calls_.release = [](WorldRows& rows, Row<Bodies> body) { Release(rows, body); };
         return *this;
     }
     /// After a load, what is not in the bytes because it follows from them: `Run(rows, task)` of a run that goes on,
     /// `Body(rows, body)` of each body with a shell.
     template <auto Run, auto Body>
     DamageModel& restores() {
-        calls_.restore_run = [](RunRows& rows, Row<Tasks> task) { Run(rows, task); };
-        calls_.restore_body = [](BodyRows& rows, Row<Bodies> body) { Body(rows, body); };
+        calls_.restore_run = [](WorldRows& rows, Row<Tasks> task) { Run(rows, task); };
+        calls_.restore_body = [](WorldRows& rows, Row<Bodies> body) { Body(rows, body); };
         return *this;
     }
-    /// Rows that came from a file. `Shell(shell, wear, name, advice)` is a Result<void>, whose sentence begins with the
-    /// name and ends with the advice. Ranges, users and shared tables have been looked at before.
+    /// Rows that came from a file. `Shell(rows, structure, wear, name, advice)` is a Result<void>, whose sentence
+    /// begins with the name and ends with the advice. Ranges, users and shared tables have been looked at before.
     template <auto Shell>
     DamageModel& checks() {
-        calls_.check_shell = [](const ShellView& shell, Wear wear, const std::string& name, const char* advice) {
-            return Shell(shell, wear, name, advice);
-        };
+        calls_.check_shell = [](MetalShellRows rows, Row<Structures> structure, Wear wear, const std::string& name,
+                                const char* advice) { return Shell(rows, structure, wear, name, advice); };
         return *this;
     }
     /// The same of tasks and of rows of the model's own. `Task(rows, task)` is empty or what the task's shell is or
@@ -251,8 +250,8 @@ class DamageModel {
     /// tasks and bodies of another model may hold what they held.
     template <auto Task, auto Rows>
     DamageModel& checks_own() {
-        calls_.trouble_of_task = [](const RunRows& rows, uint32_t task) { return Task(rows, task); };
-        calls_.check_rows = [](const SoftRows& rows, uint8_t own, const std::string& name, const char* advice) {
+        calls_.trouble_of_task = [](const WorldRows& rows, uint32_t task) { return Task(rows, task); };
+        calls_.check_rows = [](const WorldRows& rows, uint8_t own, const std::string& name, const char* advice) {
             return Rows(rows, own, name, advice);
         };
         return *this;

@@ -70,47 +70,48 @@ struct ModelCalls {
     // Cooking and spawning.
     Result<std::shared_ptr<Model::Contents>> (*cook)(Cooking&) = nullptr;
     float (*edge_share)(const CookSettings&) = nullptr;
-    Result<Row<Structures>> (*spawn_structure)(SoftRows&, Row<Structures> source, const Spawning&) = nullptr;
-    Result<ShellRoom> (*spawn_body)(SoftRows&, Row<Bodies>, const Spawning&) = nullptr;
+    Result<Row<Structures>> (*spawn_structure)(WorldRows&, Row<Structures> source, const Spawning&) = nullptr;
+    Result<ShellRoom> (*spawn_body)(WorldRows&, Row<Bodies>, const Spawning&) = nullptr;
     // Tasks.
-    bool (*leaves_nothing)(BodyRows&, const Knock&, float& bounce) = nullptr;
-    WorkingCopy (*working_copy)(BodyRows&, Row<Bodies>) = nullptr;
-    void (*begin)(BodyRows&, Row<Tasks>) = nullptr;
-    bool (*give_late)(BodyRows&, const Blows&, Row<Tasks>, const char** full) = nullptr;
-    bool (*may_find_room)(const BodyRows&, Row<Bodies>) = nullptr;
-    bool (*is_pressed)(BodyRows&, Row<Bodies>, const Press&) = nullptr;
-    double (*least_width)(const BodyRows&, Row<Bodies>) = nullptr;
-    std::optional<RunLength> (*length)(const BodyRows&, Row<Bodies>) = nullptr;
-    ShellRoom (*room)(BodyRows&, Row<Bodies>) = nullptr;
-    bool (*is_part)(const RunRows&, uint32_t task) = nullptr;
-    void (*cancel)(RunRows&, Row<Tasks>) = nullptr;
+    bool (*leaves_nothing)(WorldRows&, const Knock&, float& bounce) = nullptr;
+    WorkingCopy (*working_copy)(WorldRows&, Row<Bodies>) = nullptr;
+    void (*begin)(WorldRows&, Row<Tasks>) = nullptr;
+    bool (*give_late)(WorldRows&, const Blows&, Row<Tasks>, const char** full) = nullptr;
+    bool (*may_find_room)(const WorldRows&, Row<Bodies>) = nullptr;
+    bool (*is_pressed)(WorldRows&, Row<Bodies>, const Press&) = nullptr;
+    double (*least_width)(const WorldRows&, Row<Bodies>) = nullptr;
+    std::optional<RunLength> (*length)(const WorldRows&, Row<Bodies>) = nullptr;
+    ShellRoom (*room)(WorldRows&, Row<Bodies>) = nullptr;
+    bool (*is_part)(const WorldRows&, uint32_t task) = nullptr;
+    void (*cancel)(WorldRows&, Row<Tasks>) = nullptr;
     // Births.
-    RestMotion (*motion_of_rest)(const RunRows&, Row<Tasks>) = nullptr;
-    void (*inherit)(BodyRows&, Row<Bodies> parent, Row<Bodies> piece) = nullptr;
-    bool (*keeps_cell_names)(const BodyRows&, Row<Bodies>) = nullptr;
+    RestMotion (*motion_of_rest)(const WorldRows&, Row<Tasks>) = nullptr;
+    void (*inherit)(WorldRows&, Row<Bodies> parent, Row<Bodies> piece) = nullptr;
+    bool (*keeps_cell_names)(const WorldRows&, Row<Bodies>) = nullptr;
     // What a model moves by itself, in each frame.
-    uint32_t (*most_moving)(const SoftRows&) = nullptr;
-    uint64_t (*wanted)(const SoftRows&) = nullptr;
-    uint64_t (*grant)(SoftRows&, uint64_t units, uint64_t& slow_frames) = nullptr;
-    std::optional<MechanicalEnergy> (*energy)(SoftRows&, Row<Bodies>, Vec3 gravity) = nullptr;
-    bool (*push)(SoftRows&, RigidWorld&, Row<Bodies>, const PointPush&) = nullptr;
-    bool (*explode)(SoftRows&, RigidWorld&, Row<Bodies>, const Explosion&) = nullptr;
-    bool (*is_moving)(const SoftRows&, Row<Bodies>) = nullptr;
-    void (*look_for_pieces)(SoftRows&, Row<Bodies>) = nullptr;
-    Row<Bodies> (*take_torn)(SoftRows&) = nullptr;
-    void (*hand_off_torn)(const SoftRows&, const Break&, Fragments&) = nullptr;
-    void (*give_torn)(SoftRows&, const Break&, const Fragments&) = nullptr;
-    void (*keep_torn)(SoftRows&, RigidWorld&, Row<Bodies>) = nullptr;
-    void (*follow)(SoftRows&, Row<Bodies>) = nullptr;
-    void (*release)(SoftRows&, Row<Bodies>) = nullptr;
+    uint32_t (*most_moving)(const WorldRows&) = nullptr;
+    uint64_t (*wanted)(const WorldRows&) = nullptr;
+    uint64_t (*grant)(WorldRows&, uint64_t units, uint64_t& slow_frames) = nullptr;
+    std::optional<MechanicalEnergy> (*energy)(WorldRows&, Row<Bodies>, Vec3 gravity) = nullptr;
+    bool (*push)(WorldRows&, RigidWorld&, Row<Bodies>, const PointPush&) = nullptr;
+    bool (*explode)(WorldRows&, RigidWorld&, Row<Bodies>, const Explosion&) = nullptr;
+    bool (*is_moving)(const WorldRows&, Row<Bodies>) = nullptr;
+    void (*look_for_pieces)(WorldRows&, Row<Bodies>) = nullptr;
+    Row<Bodies> (*take_torn)(WorldRows&) = nullptr;
+    void (*hand_off_torn)(const WorldRows&, const Break&, Fragments&) = nullptr;
+    void (*give_torn)(WorldRows&, const Break&, const Fragments&) = nullptr;
+    void (*keep_torn)(WorldRows&, RigidWorld&, Row<Bodies>) = nullptr;
+    void (*follow)(WorldRows&, Row<Bodies>) = nullptr;
+    void (*release)(WorldRows&, Row<Bodies>) = nullptr;
     // The game's calls.
-    const char* (*why_not_cut)(const BodyRows&, Row<Bodies>) = nullptr;
+    const char* (*why_not_cut)(const WorldRows&, Row<Bodies>) = nullptr;
     // Files.
-    void (*restore_run)(RunRows&, Row<Tasks>) = nullptr;
-    void (*restore_body)(BodyRows&, Row<Bodies>) = nullptr;
-    Result<void> (*check_shell)(const ShellView&, Wear, const std::string& name, const char* advice) = nullptr;
-    std::string (*trouble_of_task)(const RunRows&, uint32_t task) = nullptr;
-    Result<void> (*check_rows)(const SoftRows&, uint8_t own, const std::string& name, const char* advice) = nullptr;
+    void (*restore_run)(WorldRows&, Row<Tasks>) = nullptr;
+    void (*restore_body)(WorldRows&, Row<Bodies>) = nullptr;
+    Result<void> (*check_shell)(MetalShellRows, Row<Structures>, Wear, const std::string& name,
+                                const char* advice) = nullptr;
+    std::string (*trouble_of_task)(const WorldRows&, uint32_t task) = nullptr;
+    Result<void> (*check_rows)(const WorldRows&, uint8_t own, const std::string& name, const char* advice) = nullptr;
 };
 
 }  // namespace cullet

@@ -6,8 +6,9 @@
 #include <string>
 
 #include "components/blows.hpp"
-#include "components/body_rows.hpp"
+#include "components/world_rows.hpp"
 #include "engine/runs.hpp"
+#include "systems/narrow_call.hpp"
 
 namespace cullet {
 
@@ -19,9 +20,9 @@ struct RunCost {
 
 /// What the budget and the runner ask of a loop about a task.
 struct TaskCalls {
-    bool (*works_on)(const RunRows& rows, uint32_t task);  // the task is one of this loop's
+    bool (*works_on)(const WorldRows& rows, uint32_t task);  // the task is one of this loop's
     /// A pass over its rows is worth a barrier. Null: it never is.
-    bool (*may_be_shared)(const RunRows& rows, uint32_t task) = nullptr;
+    bool (*may_be_shared)(const WorldRows& rows, uint32_t task) = nullptr;
     /// Its runs have some ten steps: they may wait for the oldest of them, and are granted step by step.
     bool is_brief = false;
 };
@@ -34,9 +35,9 @@ class TaskLoop {
     static TaskLoop of(std::string title, InnerLoop<World> loop, const TaskCalls& calls) {
         TaskLoop made(std::move(title), calls);
         made.loop_ = std::make_shared<const InnerLoop<World>>(std::move(loop));
-        made.cost_ = [](const RunRows& rows, uint32_t task) { return Cost(rows, task); };
+        made.cost_ = [](const WorldRows& rows, uint32_t task) { return Cost(rows, task); };
         made.describe_ = [](const void* own) { return loop_of<World>(own).describe(); };
-        made.run_ = [](const void* own, SoftRows& rows, const Blows& blows, const Plan& plan) {
+        made.run_ = [](const void* own, WorldRows& rows, const Blows& blows, const Plan& plan) {
             const Tasks& tasks = rows.tasks;
             const uint32_t t = plan.task;
             return LoopRun(loop_of<World>(own), World{rows, blows},
@@ -48,14 +49,14 @@ class TaskLoop {
 
     const std::string& title() const { return title_; }
     std::string describe() const { return describe_(loop_.get()); }
-    bool works_on(const RunRows& rows, uint32_t task) const { return calls_.works_on(rows, task); }
-    bool may_be_shared(const RunRows& rows, uint32_t task) const {
+    bool works_on(const WorldRows& rows, uint32_t task) const { return calls_.works_on(rows, task); }
+    bool may_be_shared(const WorldRows& rows, uint32_t task) const {
         return calls_.may_be_shared && calls_.may_be_shared(rows, task);
     }
     bool is_brief() const { return calls_.is_brief; }
-    RunCost cost(const RunRows& rows, uint32_t task) const { return cost_(rows, task); }
+    RunCost cost(const WorldRows& rows, uint32_t task) const { return cost_(rows, task); }
     /// The steps that the task was granted. The loop must outlive it.
-    LoopRun run(SoftRows& rows, const Blows& blows, uint32_t task, uint32_t zone) const {
+    LoopRun run(WorldRows& rows, const Blows& blows, uint32_t task, uint32_t zone) const {
         // More is granted than there are steps left: for cuts.
         const uint32_t left = std::max(1u, steps_left(rows, task, 0));
         const uint64_t steps = std::min(rows.tasks.steps_granted[task], left);
@@ -81,7 +82,7 @@ class TaskLoop {
     template <auto Cost, class World>
     static uint64_t left_over(World& world, uint32_t task) {
         const Tasks& tasks = world.template table<Tasks>();
-        const RunCost cost = Cost(world.template set<RunRows>(), task);
+        const RunCost cost = Cost(world.tables(), task);
         const bool has_ended = static_cast<TaskState>(tasks.state[task]) != TaskState::Running;
         const uint64_t left = tasks.steps_granted[task] * cost.step;
         return left - std::min(left, has_ended ? cost.end : 0);
@@ -90,16 +91,17 @@ class TaskLoop {
     std::string title_;
     TaskCalls calls_;
     std::shared_ptr<const void> loop_;
-    RunCost (*cost_)(const RunRows&, uint32_t) = nullptr;
+    RunCost (*cost_)(const WorldRows&, uint32_t) = nullptr;
     std::string (*describe_)(const void*) = nullptr;
-    LoopRun (*run_)(const void*, SoftRows&, const Blows&, const Plan&) = nullptr;
+    LoopRun (*run_)(const void*, WorldRows&, const Blows&, const Plan&) = nullptr;
 };
 
-/// What the inner loop of a task may see: rows of bodies, and the game's blows.
+/// What the inner loop of a task may see: all rows, and the game's blows.
 struct TaskWorld {
-    BodyRows& rows;
+    WorldRows& rows;
     const Blows& blows;
 
+    WorldRows& tables() const { return rows; }
     template <class T>
     auto& table() {
         if constexpr (std::is_same_v<T, Blows>)
@@ -126,8 +128,8 @@ struct FrameRun {
 
 /// What the runner asks of a loop about rows that it runs in each frame, without a task.
 struct FrameCalls {
-    uint32_t (*row_count)(const SoftRows& rows);
-    std::optional<FrameRun> (*run_of)(const SoftRows& rows, uint32_t row);  // none: at rest, or another loop's
+    uint32_t (*row_count)(const WorldRows& rows);
+    std::optional<FrameRun> (*run_of)(const WorldRows& rows, uint32_t row);  // none: at rest, or another loop's
 };
 
 /// An inner loop of what moves on the world's clock.
@@ -140,7 +142,7 @@ class FrameLoop {
           calls_(calls),
           loop_(std::make_shared<const InnerLoop<World>>(std::move(loop))),
           describe_([](const void* own) { return static_cast<const InnerLoop<World>*>(own)->describe(); }),
-          run_([](const void* own, SoftRows& rows, uint32_t row, const FrameRun& run, uint32_t zone) {
+          run_([](const void* own, WorldRows& rows, uint32_t row, const FrameRun& run, uint32_t zone) {
               return LoopRun(*static_cast<const InnerLoop<World>*>(own), World{rows},
                              {row, run.first, run.repetitions, nullptr}, run.units, run.may_be_shared, zone);
           }) {}
@@ -148,7 +150,7 @@ class FrameLoop {
     const std::string& title() const { return title_; }
     std::string describe() const { return describe_(loop_.get()); }
     /// Those of this frame. The loop must outlive them.
-    void list_runs(SoftRows& rows, uint32_t zone, Runs& runs) const {
+    void list_runs(WorldRows& rows, uint32_t zone, Runs& runs) const {
         for (uint32_t row = 0; row < calls_.row_count(rows); ++row)
             if (const std::optional<FrameRun> run = calls_.run_of(rows, row))
                 runs.add(run_(loop_.get(), rows, row, *run, zone));
@@ -159,7 +161,7 @@ class FrameLoop {
     FrameCalls calls_;
     std::shared_ptr<const void> loop_;
     std::string (*describe_)(const void*);
-    LoopRun (*run_)(const void*, SoftRows&, uint32_t row, const FrameRun&, uint32_t zone);
+    LoopRun (*run_)(const void*, WorldRows&, uint32_t row, const FrameRun&, uint32_t zone);
 };
 
 }  // namespace cullet

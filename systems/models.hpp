@@ -27,57 +27,58 @@ class DamageModels {
     // ---- each asks the model of the body, of the task's body, or of the structure
 
     Result<void> check_spawn(const StructureRows& rows, Row<Structures> source, const SpawnSettings& settings) const;
-    Result<Row<Structures>> spawn_structure(SoftRows& rows, Row<Structures> source, const Spawning& spawning) const;
+    Result<Row<Structures>> spawn_structure(WorldRows& rows, Row<Structures> source, const Spawning& spawning) const;
     /// Rows that the first hit on the body takes; none: it does not break.
-    Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning) const;
+    Result<ShellRoom> spawn_body(WorldRows& rows, Row<Bodies> body, const Spawning& spawning) const;
 
-    bool leaves_nothing(BodyRows& rows, const Knock& knock, float& bounce) const;
+    bool leaves_nothing(WorldRows& rows, const Knock& knock, float& bounce) const;
     /// m, to which what yields in its shape can be pressed flat. None: it does not yield so, it comes apart.
-    std::optional<double> least_width(const BodyRows& rows, Row<Bodies> body) const;
-    bool is_pressed(BodyRows& rows, Row<Bodies> body, const Press& press) const;
-    WorkingCopy working_copy(BodyRows& rows, Row<Bodies> body) const;
-    void begin_run(BodyRows& rows, Row<Tasks> task) const;
-    bool give_late(BodyRows& rows, const Blows& blows, Row<Tasks> task, const char** full) const;
-    bool may_find_room(const BodyRows& rows, Row<Bodies> body) const;
-    std::optional<RunLength> length(const BodyRows& rows, Row<Bodies> body) const;
-    std::optional<ShellRoom> room(BodyRows& rows, Row<Bodies> body) const;
-    bool is_part(const RunRows& rows, uint32_t task) const;
-    void cancel(RunRows& rows, Row<Tasks> task) const;
+    std::optional<double> least_width(const WorldRows& rows, Row<Bodies> body) const;
+    bool is_pressed(WorldRows& rows, Row<Bodies> body, const Press& press) const;
+    WorkingCopy working_copy(WorldRows& rows, Row<Bodies> body) const;
+    void begin_run(WorldRows& rows, Row<Tasks> task) const;
+    bool give_late(WorldRows& rows, const Blows& blows, Row<Tasks> task, const char** full) const;
+    bool may_find_room(const WorldRows& rows, Row<Bodies> body) const;
+    std::optional<RunLength> length(const WorldRows& rows, Row<Bodies> body) const;
+    std::optional<ShellRoom> room(WorldRows& rows, Row<Bodies> body) const;
+    bool is_part(const WorldRows& rows, uint32_t task) const;
+    void cancel(WorldRows& rows, Row<Tasks> task) const;
     /// The loop that works off an open task: the first one of its model that does.
-    const TaskLoop& loop_of(const RunRows& rows, uint32_t task) const;
+    const TaskLoop& loop_of(const WorldRows& rows, uint32_t task) const;
 
-    std::optional<RestMotion> motion_of_rest(const RunRows& rows, Row<Tasks> task) const;
-    void inherit(BodyRows& rows, Row<Bodies> parent, Row<Bodies> piece) const;
-    bool keeps_cell_names(const BodyRows& rows, Row<Bodies> body) const;
+    std::optional<RestMotion> motion_of_rest(const WorldRows& rows, Row<Tasks> task) const;
+    void inherit(WorldRows& rows, Row<Bodies> parent, Row<Bodies> piece) const;
+    bool keeps_cell_names(const WorldRows& rows, Row<Bodies> body) const;
 
-    std::optional<MechanicalEnergy> energy(SoftRows& rows, Row<Bodies> body, Vec3 gravity) const;
-    bool push(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const PointPush& push) const;
-    bool explode(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) const;
-    bool is_moving(const SoftRows& rows, Row<Bodies> body) const;
-    void look_for_pieces(SoftRows& rows, Row<Bodies> body) const;
-    void hand_off_torn(const SoftRows& rows, const Break& torn, Fragments& fragments) const;
-    void give_torn(SoftRows& rows, const Break& torn, const Fragments& fragments) const;
-    void keep_torn(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body) const;
-    void follow(SoftRows& rows, Row<Bodies> body) const;
-    void release(SoftRows& rows, Row<Bodies> body) const;
+    std::optional<MechanicalEnergy> energy(WorldRows& rows, Row<Bodies> body, Vec3 gravity) const;
+    bool push(WorldRows& rows, RigidWorld& rigid, Row<Bodies> body, const PointPush& push) const;
+    bool explode(WorldRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) const;
+    bool is_moving(const WorldRows& rows, Row<Bodies> body) const;
+    void look_for_pieces(WorldRows& rows, Row<Bodies> body) const;
+    void hand_off_torn(const WorldRows& rows, const Break& torn, Fragments& fragments) const;
+    void give_torn(WorldRows& rows, const Break& torn, const Fragments& fragments) const;
+    void keep_torn(WorldRows& rows, RigidWorld& rigid, Row<Bodies> body) const;
+    void follow(WorldRows& rows, Row<Bodies> body) const;
+    void release(WorldRows& rows, Row<Bodies> body) const;
 
-    const char* why_not_cut(const BodyRows& rows, Row<Bodies> body) const;
-    void restore_run(RunRows& rows, Row<Tasks> task) const;
-    void restore_body(BodyRows& rows, Row<Bodies> body) const;
-    Result<void> check_shell(const ShellView& shell, Wear wear, const std::string& name, const char* advice) const;
-    std::string trouble_of_task(const RunRows& rows, uint32_t task) const;
+    const char* why_not_cut(const WorldRows& rows, Row<Bodies> body) const;
+    void restore_run(WorldRows& rows, Row<Tasks> task) const;
+    void restore_body(WorldRows& rows, Row<Bodies> body) const;
+    Result<void> check_shell(MetalShellRows rows, Row<Structures> shell, Wear wear, const std::string& name,
+                             const char* advice) const;
+    std::string trouble_of_task(const WorldRows& rows, uint32_t task) const;
 
     // ---- these ask all of them, one after the other
 
     /// Units that all frame loops ask for.
-    uint64_t units_wanted(const SoftRows& rows) const;
+    uint64_t units_wanted(const WorldRows& rows) const;
     /// Rows of their frame loops that run in one frame, at most.
-    uint32_t most_moving(const SoftRows& rows) const;
+    uint32_t most_moving(const WorldRows& rows) const;
     /// Gives them what there is, the first models first; returns what they use.
-    uint64_t grant_frame(SoftRows& rows, uint64_t units, uint64_t& slow_frames) const;
+    uint64_t grant_frame(WorldRows& rows, uint64_t units, uint64_t& slow_frames) const;
     /// A body that tore, each once; a row that does not exist: there is none left.
-    Row<Bodies> take_torn(SoftRows& rows) const;
-    Result<void> check_rows(const SoftRows& rows, const std::string& name, const char* advice) const;
+    Row<Bodies> take_torn(WorldRows& rows) const;
+    Result<void> check_rows(const WorldRows& rows, const std::string& name, const char* advice) const;
 
  private:
     /// Null where the model has no such call. What has no structure has no model.
@@ -86,11 +87,11 @@ class DamageModels {
         return structure.exists() ? models_[rows.structures.damage_model[structure]].calls().*call : nullptr;
     }
     template <class Call>
-    Call call_of(const RunRows& rows, Row<Tasks> task, Call ModelCalls::*call) const {
+    Call call_of(const WorldRows& rows, Row<Tasks> task, Call ModelCalls::*call) const {
         return call_of(rows, rows.tasks.source[task], call);
     }
     template <class Call>
-    Call call_of(const BodyRows& rows, Row<Bodies> body, Call ModelCalls::*call) const {
+    Call call_of(const WorldRows& rows, Row<Bodies> body, Call ModelCalls::*call) const {
         return call_of(rows, rows.bodies.structure[body], call);
     }
     std::vector<DamageModel> models_;

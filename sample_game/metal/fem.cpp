@@ -225,8 +225,8 @@ Result<FemDent> dent_of(const FemCase& of, const FemBlow& blow) {
     FemDent made;
     made.ball_radius = blow.ball_radius;
     if (!(made.ball_radius > 0))
-        made.ball_radius = radius_for_contact(sheet_metal(bench.view().shell), 0.5 * std::min(of.width, of.height),
-                                              blow.work, of.patch / std::sqrt(std::numbers::pi));
+        made.ball_radius = radius_for_contact(sheet_metal(bench.view()), 0.5 * std::min(of.width, of.height), blow.work,
+                                              of.patch / std::sqrt(std::numbers::pi));
     const Dent dent = bench.hit(bench.ball_over(0, 0, made.ball_radius), blow.work);
     made.depth = dent.depth, made.contact = dent.contact;
     made.line = mid_line(bench, blow.stations);

@@ -75,7 +75,7 @@ std::vector<Verdict> metal_depth() {
         const Striker ball = bench.ball_over(0, 0, kBall);
         bench.hit(ball, 1e-9);
         const SheetPlace place = find_sheet_place(bench.view(), ball);
-        const SheetPlan plan = plan_sheet(sheet_metal(bench.view().shell), {kBall, place.support, energy, 0});
+        const SheetPlan plan = plan_sheet(sheet_metal(bench.view()), {kBall, place.support, energy, 0});
         bench.hit(ball, energy);
         const std::string name = fmt::format("{}, {} m/s", row.is_clamped ? "clamped" : "free", row.speed);
         verdicts.push_back({name + ": planned depth over the note's", plan.depth / row.depth, 0.99, 1.01});
@@ -90,7 +90,7 @@ std::vector<Verdict> metal_obstacle() {
     const Striker ball = bench.ball_over(0, 0, kBall);
     bench.hit(ball, 1e-9);
     const MetalView metal = bench.view();
-    const SheetPlan plan = plan_sheet(sheet_metal(metal.shell), {kBall, kSupport, 1200, 0});
+    const SheetPlan plan = plan_sheet(sheet_metal(metal), {kBall, kSupport, 1200, 0});
     raise_body(metal, ball, plan.depth, kSupport);
     // The distance at which a field has fallen to a half, by the vertices along x.
     double most = 0, ours = 0, far = 1e30;

@@ -564,9 +564,8 @@ Result<void> check_state(const DamageModels& models, const State& state, const s
                 return Error{name + ": structure " + std::to_string(row) + " " + trouble + ". " + kAdvice};
             continue;
         }
-        const ShellView shell(rows, Row<Structures>(row));
         const Wear wear = is_part_of_body(models, state, row) ? Wear::CutOut : Wear::Worn;
-        const Result<void> sound = models.check_shell(shell, wear, name, kAdvice);
+        const Result<void> sound = models.check_shell(rows, Row<Structures>(row), wear, name, kAdvice);
         if (!sound) return sound;
     }
     return models.check_rows(state, name, kAdvice);

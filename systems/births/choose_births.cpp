@@ -56,7 +56,7 @@ void choose_births(Planning& planning, Break& plan) {
 
 void stay(Planning& planning, Break& plan, Row<Fragments> fragment, const char* setting) {
     settle(planning, plan);
-    SoftRows& state = planning.state;
+    auto& state = planning.state;
     Fragments& f = planning.fragments;
     const StructureCalls& calls = planning.calls(plan);
     planning.refused.push(refused_event(state.bodies, plan.body, setting));

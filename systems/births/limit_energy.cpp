@@ -81,7 +81,7 @@ Common common_motion(const Bodies& bodies, const Debris& debris, const Fragments
 }
 
 void move(Births& births, const Mover& m, Vec3d velocity, Vec3d spin, BodyId parent) {
-    BodyRows& state = births.state;
+    auto& state = births.state;
     if (m.debris != kNone) {
         const Vec3 place = births.debris.position[m.debris];
         births.debris.velocity.set(m.debris, velocity.to_float());

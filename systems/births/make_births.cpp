@@ -7,7 +7,7 @@
 namespace cullet {
 namespace {
 
-void close_task(BodyRows& state, Row<Tasks> task, Step step) {
+void close_task(WorldRows& state, Row<Tasks> task, Step step) {
     Tasks& tasks = state.tasks;
     const Row<Bodies> body = tasks.body[task];
     state.bodies.task[body] = kNone;
@@ -43,7 +43,7 @@ void count_result(const RunRows& rows, Row<Tasks> task, DamageCounts& counts) {
 
 }  // namespace
 
-void make_births(Serial, Step step, EndedTasks over, SoftRows& rows, Blows& blows, Crumbs crumbs, RigidWorld& rigid,
+void make_births(Serial, Step step, EndedTasks over, WorldRows& rows, Blows& blows, Crumbs crumbs, RigidWorld& rigid,
                  BirthAccounts accounts, ToldOfBirths told) {
     Births births{rows,
                   over.fragments,

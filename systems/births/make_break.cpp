@@ -22,7 +22,7 @@ void book_dent(Births& births, Row<Bodies> body, Vec3 middle_before, double ener
 
 // Nothing struck: pieces go as they were planned.
 void make_without_task(Births& births, const Break& plan) {
-    SoftRows& state = births.state;
+    auto& state = births.state;
     const double allowed = rigid_energy(state.bodies, plan.body) + plan.waited;
     const Vec3 middle = centre_of(state.bodies, plan.body);
     const double moving = rigid_energy(state.bodies, plan.body);
@@ -45,7 +45,7 @@ void count_settled(const Fragments& f, const Break& plan, DamageCounts& counts) 
 }  // namespace
 
 void make_break(Births& births, const Break& plan) {
-    SoftRows& state = births.state;
+    auto& state = births.state;
     if (plan.is_torn) births.models.give_torn(state, plan, births.fragments);
     if (!plan.task.exists()) return make_without_task(births, plan);
     count_settled(births.fragments, plan, births.counts);

@@ -8,7 +8,7 @@ namespace cullet {
 
 /// What making births may touch.
 struct Births {
-    SoftRows& state;
+    WorldRows& state;
     Fragments& fragments;
     const Touches& touches;
     Blows& blows;

@@ -130,7 +130,7 @@ void reshape_rest(Births& births, const Break& plan, std::span<const ConvexPiece
 // One fragment's row, rigid body and event. The body frame and the pose stay the parent's.
 PieceBounds make_piece_body(Births& births, const Break& plan, Row<Fragments> f, const Moment& moment,
                             Leaving& leaving) {
-    BodyRows& state = births.state;
+    auto& state = births.state;
     Bodies& bodies = state.bodies;
     const Row<Bodies> body = plan.body, child = births.fragments.child[f];
     const Motion motion =

@@ -74,7 +74,7 @@ void part_siblings(Births& births, const Break& of, const Moment& moment, std::s
 }
 
 void part_strikers(Births& births, const Break& of, bool is_late) {
-    BodyRows& state = births.state;
+    auto& state = births.state;
     const uint32_t first = state.tasks.first_contact[of.task], end = first + state.tasks.contact_count[of.task];
     for (const Row<Fragments> f : of.fragments) {
         const Row<Bodies> child = births.fragments.child[f];

@@ -21,7 +21,7 @@ void ask(Planning& planning, Row<Bodies> body) {
 
 }  // namespace
 
-void plan_births(Serial, const Events<TaskEnded>& ended, SoftRows& rows, WaitingHits waiting, Pieces pieces,
+void plan_births(Serial, const Events<TaskEnded>& ended, WorldRows& rows, WaitingHits waiting, Pieces pieces,
                  const Debris& debris, DamageLedger ledger, Arena& arena, PlannedBirths planned) {
     planned.breaks.clear();
     planned.births.clear();

@@ -27,7 +27,7 @@ Break break_of(const Planning& planning, Row<Tasks> task, Row<Bodies> body, Row<
 
 // What a hit changed in the body's own structure stays there. It is drawn, and its pieces go, when there is room.
 void leave_cracked(Planning& planning, Row<Bodies> body) {
-    SoftRows& state = planning.state;
+    auto& state = planning.state;
     const Row<Structures> own = state.bodies.structure[body];
     planning.calls(own).clear_run(state, own, {true, false});
     state.bodies.is_owed_births[body] = kOwedBirths;
@@ -42,7 +42,7 @@ void refuse(Planning& planning, Row<Tasks> task) {
 
 // Motions of the run, which are settled when births are filled, or when some fragment is to stay.
 void hand_off(Planning& planning, Break& plan, const std::optional<RestMotion>& rest) {
-    SoftRows& state = planning.state;
+    auto& state = planning.state;
     const StructureCalls& calls = planning.calls(plan);
     plan.start = {Vec3d(state.tasks.start_velocity[plan.task]), Vec3d(state.tasks.start_spin[plan.task]),
                   state.structures.centre[plan.broken], state.tasks.approach_speed[plan.task]};
@@ -75,7 +75,7 @@ uint32_t free_fragments(const FragmentAges& ages, const DamageSettings& settings
 }
 
 void plan_break(Planning& planning, Row<Tasks> task) {
-    SoftRows& state = planning.state;
+    auto& state = planning.state;
     const Row<Structures> broken = state.tasks.working[task];
     const Rows<Fragments> found = planning.calls(broken).list_found(state, task, planning.fragments);
     Break plan = break_of(planning, task, state.tasks.body[task], broken, found);
@@ -93,7 +93,7 @@ void plan_break(Planning& planning, Row<Tasks> task) {
 }
 
 void ask_again(Planning& planning, Row<Bodies> body) {
-    SoftRows& state = planning.state;
+    auto& state = planning.state;
     const Bodies& bodies = state.bodies;
     const Row<Structures> own = bodies.structure[body];
     const bool is_reshaped = bodies.is_owed_births[body] == kOwedShape;
@@ -118,7 +118,7 @@ void ask_again(Planning& planning, Row<Bodies> body) {
 
 // Fragments' velocities are those of their points, as at any hand-off; which hulls fit is not known any more.
 void plan_tear(Planning& planning, Row<Bodies> body) {
-    SoftRows& state = planning.state;
+    auto& state = planning.state;
     const Row<Structures> own = state.bodies.structure[body];
     const Rows<Fragments> found = list_anew(planning, own);
     if (found.count < 2) return;
@@ -133,7 +133,7 @@ void plan_tear(Planning& planning, Row<Bodies> body) {
 }
 
 void keep_cracks(Planning& planning, Row<Tasks> task) {
-    SoftRows& state = planning.state;
+    auto& state = planning.state;
     const Row<Bodies> body = state.tasks.body[task];
     const Row<Structures> cracked = state.tasks.working[task], before = state.bodies.structure[body];
     const StructureCalls& calls = planning.calls(cracked);

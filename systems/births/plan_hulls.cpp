@@ -22,7 +22,7 @@ void want_hulls(StructureRows& state, Row<Structures> structure, Events<HullWant
 
 }  // namespace
 
-void plan_hulls(Serial, const Events<Break>& breaks, const Fragments& fragments, BodyRows& rows, RigidWorld& rigid,
+void plan_hulls(Serial, const Events<Break>& breaks, const Fragments& fragments, WorldRows& rows, RigidWorld& rigid,
                 Events<HullWanted>& wanted) {
     wanted.clear();
     if (breaks.size() == 0) return;

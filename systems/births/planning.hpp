@@ -7,7 +7,7 @@
 namespace cullet {
 
 struct Planning {
-    SoftRows& state;
+    WorldRows& state;
     Fragments& fragments;
     Touches& touches;
     QueuedHits& queued;

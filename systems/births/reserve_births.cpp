@@ -86,7 +86,7 @@ bool reserve_view(Planning& planning, Break& plan) {
 
 // What frees no piece changes no velocity: the body keeps its cracks, and its loose pieces until there is room.
 void stay_whole(Planning& planning, Break& plan) {
-    SoftRows& state = planning.state;
+    auto& state = planning.state;
     if (!plan.task.exists()) return;
     const StructureCalls& calls = planning.calls(plan);
     const Row<Structures> own = state.bodies.structure[plan.body];
@@ -104,7 +104,7 @@ void stay_whole(Planning& planning, Break& plan) {
 }  // namespace
 
 Row<Bodies> reserve_body(Planning& planning, const Break& plan, Row<Fragments> fragment, const char** full) {
-    BodyRows& state = planning.state;
+    auto& state = planning.state;
     const Row<Bodies> body = take_body(state);
     if (!body.exists()) {
         *full = "limits.bodies";
@@ -131,7 +131,7 @@ bool reserve_hulls(Planning& planning, Break& plan) {
 }
 
 bool reserve_births(Planning& planning, Break& plan) {
-    SoftRows& state = planning.state;
+    auto& state = planning.state;
     uint8_t& owed = state.bodies.is_owed_births[plan.body];
     choose_births(planning, plan);
     const bool is_drawn = reserve_view(planning, plan);
@@ -150,7 +150,7 @@ bool reserve_births(Planning& planning, Break& plan) {
 }
 
 bool has_room_to_redraw(Planning& planning, Row<Bodies> body, Row<Structures> structure, uint32_t part) {
-    SoftRows& state = planning.state;
+    auto& state = planning.state;
     if (state.bodies.is_owed_births[body] == kOwedDrawing || state.bodies.model_mesh[body].exists()) return false;
     const Range &vertices = state.bodies.view_vertices[body], &indices = state.bodies.view_indices[body];
     return planning.calls(structure).rows_to_redraw(state, body, structure, part) <=

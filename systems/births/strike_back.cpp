@@ -114,7 +114,7 @@ uint32_t answering_contact(BodyRows& state, Row<Bodies> striker, Row<Bodies> bod
 // pay for it). Returns what this body's own heir has to take, body axes; `allowed` follows. Its contacts are answered
 // then.
 Vec3d settle_answers(Births& births, Row<Tasks> task, const Pose& pose, uint32_t contact, double& allowed) {
-    BodyRows& state = births.state;
+    auto& state = births.state;
     TaskContacts& contacts = state.task_contacts;
     const Row<Bodies> striker = contacts.striker[contact];
     Vec3d missing;
@@ -149,7 +149,7 @@ Vec3d settle_answers(Births& births, Row<Tasks> task, const Pose& pose, uint32_t
 // the body, whose own frame does as badly: stiffness entries are floats, so a vertex's column of blocks is off its row
 // by 2e-8, and pieces that turn pull on that with all their displacement. Uncracked bodies lose 1e-7 to 1e-6.
 double strike_back(Births& births, const Break& plan, const Pose& pose) {
-    BodyRows& state = births.state;
+    auto& state = births.state;
     Fragments& f = births.fragments;
     const Row<Tasks> task = plan.task;
     const Row<Fragments> heir = plan.largest;

@@ -26,7 +26,7 @@ Row<Bodies> take_body(BodyRows& state) {
     return Row<Bodies>(row);
 }
 
-void free_body(BodyRows& state, Row<Bodies> b) {
+void free_body(WorldRows& state, Row<Bodies> b) {
     Bodies& bodies = state.bodies;
     if (const Row<Structures> own = bodies.structure[b]; own.exists())
         calls_of(state.structures, own).release(state, own);
@@ -87,7 +87,7 @@ bool take_spare_view_rows(BodyRows& state, Row<Bodies> b, uint32_t rows) {
     return take_view_rows(state, b, rows + rows / kViewSpare) || take_view_rows(state, b, rows);
 }
 
-bool take_view(BodyRows& state, Row<Bodies> b, bool may_crack) {
+bool take_view(WorldRows& state, Row<Bodies> b, bool may_crack) {
     const Row<Structures> structure = state.bodies.structure[b];
     const uint32_t rows = calls_of(state.structures, structure).view_rows(state, structure);
     return may_crack ? take_spare_view_rows(state, b, rows) : take_view_rows(state, b, rows);

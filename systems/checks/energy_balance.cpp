@@ -32,7 +32,7 @@ namespace {
 
 // Who is driven into an awake body puts points that he lies too deep in outside, against their springs, and lifts them:
 // his work, which no impulse tells of.
-double work_of_presses(const SoftRows& rows, const MechanicalEnergy& before, const MechanicalEnergy& after) {
+double work_of_presses(const WorldRows& rows, const MechanicalEnergy& before, const MechanicalEnergy& after) {
     const SoftBodies& soft = rows.soft_bodies;
     for (uint32_t s = 0; s < soft.size(); ++s)
         for (uint32_t i = 0; soft.is_used[s] && soft.is_awake[s] && i < soft.striker_count[s]; ++i) {
@@ -47,14 +47,14 @@ double work_of_presses(const SoftRows& rows, const MechanicalEnergy& before, con
 
 }  // namespace
 
-void open_energy_balance(Serial, Step step, SoftRows& rows, const Debris& debris, const DamageModels& models,
+void open_energy_balance(Serial, Step step, WorldRows& rows, const Debris& debris, const DamageModels& models,
                          const DamageCounts& counts, const RigidWorld& rigid, EnergyBalance& balance) {
     balance.start = world_energy(models, rows, debris, step.gravity);
     balance.from_outside = counts.work_from_outside;
     balance.rigid = rigid.work();
 }
 
-void close_energy_balance(Serial, Step step, SoftRows& rows, const Debris& debris, const DamageModels& models,
+void close_energy_balance(Serial, Step step, WorldRows& rows, const Debris& debris, const DamageModels& models,
                           const DamageCounts& counts, const RigidWorld& rigid, EnergyBalance& balance,
                           Events<FaultEvent>& faults) {
     const MechanicalEnergy end = world_energy(models, rows, debris, step.gravity);

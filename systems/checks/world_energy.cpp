@@ -12,7 +12,7 @@ MechanicalEnergy& MechanicalEnergy::operator+=(const MechanicalEnergy& o) {
     return *this;
 }
 
-MechanicalEnergy body_energy(const DamageModels& models, SoftRows& state, Row<Bodies> body, Vec3 gravity) {
+MechanicalEnergy body_energy(const DamageModels& models, WorldRows& state, Row<Bodies> body, Vec3 gravity) {
     const Bodies& bodies = state.bodies;
     const auto kind = static_cast<BodyKind>(bodies.kind[body]);
     const bool has_structure = bodies.structure[body].exists();
@@ -38,7 +38,7 @@ MechanicalEnergy debris_energy(const Debris& debris, uint32_t row, Vec3 gravity)
             debris.mass[row]};
 }
 
-MechanicalEnergy world_energy(const DamageModels& models, SoftRows& state, const Debris& debris, Vec3 gravity) {
+MechanicalEnergy world_energy(const DamageModels& models, WorldRows& state, const Debris& debris, Vec3 gravity) {
     MechanicalEnergy sum;
     for (uint32_t t = 0; t < state.tasks.size(); ++t) {
         if (static_cast<TaskState>(state.tasks.state[t]) == TaskState::Free) continue;

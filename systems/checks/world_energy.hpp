@@ -1,6 +1,6 @@
 // The mechanical energy of a world: what contacts and breaks take from and never add to.
 #pragma once
-#include "components/body_rows.hpp"
+#include "components/world_rows.hpp"
 
 namespace cullet {
 
@@ -20,8 +20,8 @@ struct MechanicalEnergy {
 };
 
 /// Nothing of one that is neither dynamic nor on pins.
-MechanicalEnergy body_energy(const DamageModels& models, SoftRows& state, Row<Bodies> body, Vec3 gravity);
+MechanicalEnergy body_energy(const DamageModels& models, WorldRows& state, Row<Bodies> body, Vec3 gravity);
 MechanicalEnergy debris_energy(const Debris& debris, uint32_t row, Vec3 gravity);
-MechanicalEnergy world_energy(const DamageModels& models, SoftRows& state, const Debris& debris, Vec3 gravity);
+MechanicalEnergy world_energy(const DamageModels& models, WorldRows& state, const Debris& debris, Vec3 gravity);
 
 }  // namespace cullet

@@ -13,12 +13,16 @@ Limits cooking_limits(uint32_t vertices, uint32_t elements) {
     return limits;
 }
 
-Row<Structures> import_shell(ShellRows& to, const ShellRows& from, Row<Structures> shell, const char** full) {
+Row<Structures> import_bare_shell(ShellRows& to, const ShellRows& from, Row<Structures> shell, const char** full) {
     const ShellRoom room = room_of(from, shell);
     const Row<Structures> copy = make_shell(to, room, full);
-    if (!copy.exists()) return copy;
-    copy_shell_rows(to, from, shell, copy, room.blocks > 0);
-    if (!from.metal_of(shell).exists()) return copy;
+    if (copy.exists()) copy_shell_rows(to, from, shell, copy, room.blocks > 0);
+    return copy;
+}
+
+Row<Structures> import_shell(MetalShellRows to, Read<MetalShellRows> from, Row<Structures> shell, const char** full) {
+    const Row<Structures> copy = import_bare_shell(to, from, shell, full);
+    if (!copy.exists() || !metal_of(from, shell).exists()) return copy;
     if (make_metal(to, copy, metal_room_of(from, shell), full).exists()) {
         copy_metal_rows(to, from, shell, copy);
         return copy;

@@ -23,6 +23,8 @@ struct MeshData::Contents {
 Limits cooking_limits(uint32_t vertices, uint32_t elements);
 
 /// Copies a shell between states; kNone and the limit's name when there is no room.
-Row<Structures> import_shell(ShellRows& to, const ShellRows& from, Row<Structures> shell, const char** full);
+Row<Structures> import_bare_shell(ShellRows& to, const ShellRows& from, Row<Structures> shell, const char** full);
+/// With what it has as metal, if it is of metal.
+Row<Structures> import_shell(MetalShellRows to, Read<MetalShellRows> from, Row<Structures> shell, const char** full);
 
 }  // namespace cullet

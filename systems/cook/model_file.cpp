@@ -30,13 +30,13 @@ Error damaged(const std::string& name, const std::string& what) {
 
 /// The tables of a shell in the file's order, each with the range that counts its rows.
 template <class F>
-void for_each_part(ShellRows& state, Row<Structures> shell, F&& f) {
+void for_each_part(Workbench& state, Row<Structures> shell, F&& f) {
     ShellRows::for_each_range(state, shell, [&](Range& range, auto& table, auto, const char*) {
         f(table, range);
         if constexpr (std::is_same_v<std::remove_cvref_t<decltype(table)>, Elements>) f(state.triangle_springs, range);
     });
     // What is not of metal has no rows of these.
-    const Row<MetalShells> metal = state.metal_of(shell);
+    const Row<MetalShells> metal = metal_of(state, shell);
     if (metal.exists())
         return for_each_metal_range(state, metal, {},
                                     [&](Range& range, auto& table, uint32_t, const char*) { f(table, range); });
@@ -116,7 +116,7 @@ Result<Found> find_all(std::span<const uint8_t> payload, const std::string& name
     });
     // Tables of no rows, for their lists of columns.
     const auto none = make_workbench_of_one();
-    ShellRows& like = *none;
+    Workbench& like = *none;
     like.structures.append(1), like.shells.append(1);
     found.structure = find_table(reader, like.structures);
     if (reader.is_sound() && found.structure.rows == 1) found.structure.copy_to(like.structures, 0);
@@ -190,7 +190,7 @@ Result<void> check_counts(const Found& found, const std::string& name) {
 }
 
 /// Moves the rows into ranges of the state. The file's ranges say again how many rows there are.
-Result<Row<Structures>> copy_rows(ShellRows& state, const Found& found, const std::string& name) {
+Result<Row<Structures>> copy_rows(Workbench& state, const Found& found, const std::string& name) {
     const auto rows = [&](Part part) { return found.parts[part].rows; };
     const char* full = "";
     const Row<Structures> shell = make_shell(
@@ -202,7 +202,7 @@ Result<Row<Structures>> copy_rows(ShellRows& state, const Found& found, const st
                           rows(kSubShellBorders)};
     if (found.metal.rows > 0 && !make_metal(state, shell, metal, &full).exists())
         return damaged(name, std::string("its counts do not fit each other (") + full + ")");
-    const Row<MetalShells> metal_row = state.metal_of(shell);
+    const Row<MetalShells> metal_row = metal_of(state, shell);
     std::vector<Range> own;
     for_each_part(state, shell, [&](const AnyTable&, const Range& range) { own.push_back(range); });
     const Row<Shells> row = state.shell_of(shell);
@@ -237,7 +237,7 @@ Result<Row<Structures>> copy_rows(ShellRows& state, const Found& found, const st
     return shell;
 }
 
-Result<void> check_report_of_solid(const Found& found, const SolidRows& state, Row<Structures> structure,
+Result<void> check_report_of_solid(const Found& found, Read<SolidRows> state, Row<Structures> structure,
                                    const std::string& name) {
     const Structures& s = state.structures;
     const Row<CookedSolids> cooked = state.solids.cooked[solid_of(s, structure)];
@@ -301,11 +301,11 @@ std::vector<uint8_t> encode_model_file(const Model::Contents& contents) {
         return std::move(writer.bytes);
     }
     const auto alone = make_workbench_of_one();
-    ShellRows& row = *alone;
+    Workbench& row = *alone;
     const Row<Structures> first = make_shell(row, {});
     copy_values(row, state, contents.shell, first);
     row.structures.material[first] = Row<Materials>(0);  // its values stand before the tables
-    const Row<MetalShells> metal = state.metal_of(contents.shell);
+    const Row<MetalShells> metal = metal_of(state, contents.shell);
     if (metal.exists()) {
         const Row<MetalShells> own = make_metal(row, first, {});
         row.metal_shells.copy_rows(state.metal_shells, metal, own, 1);
@@ -365,8 +365,7 @@ Result<Model> parse_model_file(std::span<const uint8_t> bytes, const std::string
         if (!check != found->solid.has_value())
             return damaged(name, "the damage model " + found->damage_model + " breaks no such structure");
         if (check)
-            if (const Result<void> sound = check(ShellView(contents->state, *shell), Wear::Intact, name, kAdvice);
-                !sound)
+            if (const Result<void> sound = check(contents->state, *shell, Wear::Intact, name, kAdvice); !sound)
                 return Error{sound.error()};
         const Result<void> fits = found->solid ? check_report_of_solid(*found, contents->state, *shell, name)
                                                : check_report(*found, contents->state, *shell, name);

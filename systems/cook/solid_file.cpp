@@ -19,7 +19,7 @@ struct OneSolid {
     Row<CookedSolids> cooked;
 };
 /// Without rows.
-OneSolid make_one(SolidRows& rows) {
+OneSolid make_one(Workbench& rows) {
     OneSolid one;
     one.cooked = make_cooked(rows, {});
     one.structure = make_solid(rows, one.cooked, {});
@@ -28,7 +28,7 @@ OneSolid make_one(SolidRows& rows) {
 }
 
 template <class F>
-void for_each_part(SolidRows& rows, const OneSolid& one, F&& f) {
+void for_each_part(Workbench& rows, const OneSolid& one, F&& f) {
     const auto each = [&](Range& range, auto& table, uint32_t, const char*) { f(range, table); };
     for_each_cooked_range(rows, one.cooked, {}, each);
     for_each_solid_range(rows, one.structure, {}, each);
@@ -44,7 +44,7 @@ void put_solid(ByteWriter& writer, Workbench& state, Row<Structures> structure) 
     const Row<Solids> solid = solid_of(state.structures, structure);
     const OneSolid from{structure, solid, state.solids.cooked[solid]};
     const auto alone = make_workbench_of_one();
-    SolidRows& row = *alone;
+    Workbench& row = *alone;
     const OneSolid one = make_one(row);
     std::vector<uint32_t> counts;
     for_each_part(state, from, [&](const Range& range, const auto&) { counts.push_back(range.count); });
@@ -71,7 +71,7 @@ void put_solid(ByteWriter& writer, Workbench& state, Row<Structures> structure) 
 FoundSolid find_solid(ByteReader& reader) {
     FoundSolid found;
     const auto none = make_workbench_of_one();
-    SolidRows& like = *none;
+    Workbench& like = *none;
     const OneSolid one = make_one(like);
     const auto find = [&](const AnyTable& table) {
         return reader.is_sound() ? find_table(reader, table) : FoundTable{};
@@ -90,7 +90,7 @@ FoundSolid find_solid(ByteReader& reader) {
     return found;
 }
 
-// Limits of small tables follow from both numbers (components/shell_rows.hpp): coarse tetrahedra are an eighth of the
+// Limits of small tables follow from both numbers (components/solid_rows.hpp): coarse tetrahedra are an eighth of the
 // elements, cells of solids a quarter, hulls an eighth of the vertices.
 Limits limits_for(const FoundSolid& found) {
     uint32_t most = 0;

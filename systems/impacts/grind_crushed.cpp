@@ -15,7 +15,7 @@ ImpactEvent event_of(const Bodies& bodies, const Crushed& c) {
 
 }  // namespace
 
-void grind_crushed(Serial, Step step, const Events<Crushed>& crushed, SoftRows& rows, WaitingHits waiting,
+void grind_crushed(Serial, Step step, const Events<Crushed>& crushed, WorldRows& rows, WaitingHits waiting,
                    Crumbs crumbs, const DamageModels& models, RigidWorld& rigid, ToldOfGrinding told) {
     const Bodies& bodies = rows.bodies;
     // All are told of before any goes: two that lie on each other are named by each other's events.

@@ -31,7 +31,7 @@ double work_against(const Bodies& bodies, Row<Bodies> body, Vec3 way, Vec3 gravi
 struct Holding {
     Step step;
     RigidWorld& rigid;
-    SoftRows& rows;
+    WorldRows& rows;
     DamageCounts& counts;
 
     void begin(Row<Bodies> body, const Between& between, double width);
@@ -136,7 +136,7 @@ bool is_anything_driven(const Bodies& bodies) {
 }
 
 // It cannot give way, or not any more. What comes apart does so before; what yields in its shape has a dent to come.
-bool is_at_its_end(const BodyRows& rows, const DamageLedger& ledger, Row<Bodies> body, const Between& between,
+bool is_at_its_end(const WorldRows& rows, const DamageLedger& ledger, Row<Bodies> body, const Between& between,
                    double width, double dt) {
     const Bodies& bodies = rows.bodies;
     const double size = size_of(bodies, body);
@@ -156,7 +156,7 @@ SqueezedEvent event_of(const Bodies& bodies, Row<Bodies> body, Row<Bodies> by) {
 
 }  // namespace
 
-void hold_squeezed(Serial, Step step, RigidWorld& rigid, SoftRows& rows, DamageLedger ledger, Arena& arena,
+void hold_squeezed(Serial, Step step, RigidWorld& rigid, WorldRows& rows, DamageLedger ledger, Arena& arena,
                    Events<SqueezedEvent>& told) {
     if (!rigid.knows_surfaces()) return;
     Bodies& bodies = rows.bodies;

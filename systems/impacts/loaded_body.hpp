@@ -1,6 +1,7 @@
 // A body under loads: the tables that say what it bears.
 #pragma once
 #include "components/body_rows.hpp"
+#include "components/solid_rows.hpp"
 
 namespace cullet {
 

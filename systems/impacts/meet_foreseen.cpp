@@ -13,7 +13,7 @@ constexpr uint64_t kLateFrames = 1;  // by which it may come later
 
 struct Meeting {
     Step step;
-    const BodyRows& state;
+    const WorldRows& state;
     const Blows& blows;
     std::span<Impact> impacts;  // by body
 
@@ -84,7 +84,7 @@ struct Meeting {
 
 }  // namespace
 
-void meet_foreseen(Serial, Step step, BodyRows& rows, const Blows& blows, DamageLedger ledger, Events<Impact>& impacts,
+void meet_foreseen(Serial, Step step, WorldRows& rows, const Blows& blows, DamageLedger ledger, Events<Impact>& impacts,
                    Events<ImpactEvent>& impact_events) {
     const DamageSettings& settings = ledger.settings;
     Tasks& tasks = rows.tasks;

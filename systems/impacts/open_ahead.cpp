@@ -78,7 +78,7 @@ bool has_queued_hit(const BodyRows& state, const QueuedHits& queued, Row<Bodies>
 /// Blows on bodies that may have a task for them.
 std::span<Foreseen> find_blows(const Opening& opening, std::span<const ForeseenHit> hits,
                                const DamageSettings& settings, std::span<Foreseen> room) {
-    const BodyRows& state = opening.state;
+    auto& state = opening.state;
     const Bodies& bodies = state.bodies;
     uint32_t count = 0;
     for (const ForeseenHit& hit : hits)
@@ -153,7 +153,7 @@ bool still_holds(const Opening& opening, Row<Tasks> task, std::span<const Forese
 /// The fastest of them first. What topples comes with others only if it is the fastest: it may come otherwise, and
 /// would take their task with it.
 void open_one(Opening& opening, std::span<const Foreseen> together) {
-    BodyRows& state = opening.state;
+    auto& state = opening.state;
     Tasks& tasks = state.tasks;
     const Row<Bodies> body = together.front().impact.body;
     if (const Row<Tasks> task(state.bodies.task[body]); task.exists()) {
@@ -194,7 +194,7 @@ bool is_bump(const BodyRows& state, const Impact& impact, float foreseen) {
 
 void open_ahead(Opening& opening, const Events<ForeseenHit>& foreseen, const DamageSettings& settings) {
     if (foreseen.all().empty()) return;  // clearing the room below was a third of a quiet frame
-    BodyRows& state = opening.state;
+    auto& state = opening.state;
     const Scratch<std::array<Foreseen, kMostForeseen>> room(state.scratch);
     const auto all = find_blows(opening, foreseen.all(), settings, *room);
     std::sort(all.begin(), all.end(), [](const Foreseen& p, const Foreseen& q) {

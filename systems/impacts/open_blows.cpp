@@ -28,14 +28,14 @@ ImpactEvent event_of(const Bodies& bodies, const Blows& blows, uint32_t row) {
     return e;
 }
 
-float radius_of(const RunRows& state, const Blows& blows, uint32_t row, uint32_t t) {
+float radius_of(const WorldRows& state, const Blows& blows, uint32_t row, uint32_t t) {
     const Row<Structures> source = state.tasks.source[t];
     return calls_of(state.structures, source).patch_radius(state, source, blows.radius[row]);
 }
 
 // The task's contact in whose patch the push lies, or kNone. Vertices of two patches take one spring alone: a second
 // push there would be lost.
-uint32_t contact_at(const RunRows& state, const Blows& blows, uint32_t row, uint32_t t) {
+uint32_t contact_at(const WorldRows& state, const Blows& blows, uint32_t row, uint32_t t) {
     const TaskContacts& contacts = state.task_contacts;
     const float radius = radius_of(state, blows, row, t);
     const uint32_t first = state.tasks.first_contact[t];
@@ -52,7 +52,7 @@ bool may_merge(const TaskContacts& contacts, const Blows& blows, uint32_t row, u
 }
 
 // Whether a task of this step, or one that is to be opened, can take the blow too.
-bool fits(const RunRows& state, const Blows& blows, uint32_t row, uint32_t t, bool is_late) {
+bool fits(const WorldRows& state, const Blows& blows, uint32_t row, uint32_t t, bool is_late) {
     const bool is_cut = is_kind(blows, row, BlowKind::Cut);
     if (is_cut != is_cut_task(blows, Row<Tasks>(t))) return false;
     if (!is_late && !is_cut && blows.is_paid[row]) return false;  // or the run would give it a second time
@@ -67,7 +67,7 @@ Vec3 moving_at(const BodyRows& state, uint32_t t, Vec3 point) {
 }
 
 // Masses add; speed, way and place are the mean by momentum: what sticks together and goes on as one.
-void merge_push(BodyRows& state, const Blows& blows, uint32_t row, uint32_t t, uint32_t c) {
+void merge_push(WorldRows& state, const Blows& blows, uint32_t row, uint32_t t, uint32_t c) {
     TaskContacts& contacts = state.task_contacts;
     const double mass = 1 / double{contacts.striker_inverse_mass[c]}, added = 1 / double{blows.inverse_mass[row]};
     const Vec3 point = contacts.point[c], normal = contacts.normal[c];
@@ -85,7 +85,7 @@ void merge_push(BodyRows& state, const Blows& blows, uint32_t row, uint32_t t, u
     contacts.radius[c] = std::max(contacts.radius[c], radius_of(state, blows, row, t));
 }
 
-void lay_push(BodyRows& state, const Blows& blows, uint32_t row, uint32_t t) {
+void lay_push(WorldRows& state, const Blows& blows, uint32_t row, uint32_t t) {
     if (const uint32_t at = contact_at(state, blows, row, t); at != kNone) return merge_push(state, blows, row, t, at);
     Tasks& tasks = state.tasks;
     TaskContacts& contacts = state.task_contacts;
@@ -104,7 +104,7 @@ enum class Outcome : uint8_t { Waits, Joined, Gone };
 
 struct Opener {
     BlowOpening& o;
-    SoftRows& state = o.opening.state;
+    WorldRows& state = o.opening.state;
     Blows& blows = o.opening.blows;
     uint64_t cut_units = 0;  // of the cuts that this step makes
 

@@ -15,7 +15,7 @@ namespace {
 
 // The fastest of each striker's contacts; a faster one takes the place of what the same striker did before.
 void queue_hits(std::span<const Impact> impacts, Opening& opening) {
-    BodyRows& state = opening.state;
+    auto& state = opening.state;
     const Bodies& bodies = state.bodies;
     for (const Impact& told : impacts) {
         const Impact impact = aimed(state, told);
@@ -33,7 +33,7 @@ void queue_hits(std::span<const Impact> impacts, Opening& opening) {
 // The contact as it was: striker and body meet at the speed that they had relative to each other then. Something that
 // does not yield must stand still, or it would do work on the body: then the body is given the speed. A late result
 // uses velocities relative to the body's mean alone, so either is as good.
-void lay_queued(BodyRows& state, const QueuedHits& queued, Row<Tasks> task, uint32_t q) {
+void lay_queued(WorldRows& state, const QueuedHits& queued, Row<Tasks> task, uint32_t q) {
     Tasks& tasks = state.tasks;
     TaskContacts& contacts = state.task_contacts;
     const Row<Structures> structure = tasks.source[task];
@@ -125,7 +125,7 @@ uint64_t next_queued_frame(const QueuedHits& queued, uint64_t from) {
 
 // A load that is no blow: the cut that it asks for is opened with the other blows of this step. False: it waits.
 bool open_snap(Opening& opening, uint32_t q, Events<ImpactEvent>& impact_events) {
-    BodyRows& state = opening.state;
+    auto& state = opening.state;
     const QueuedHits& queued = opening.queued;
     const Row<Bodies> body = queued.body[q];
     if (!snap(opening.blows, state, state.bodies, body, queued.point[q], queued.normal[q],
@@ -149,7 +149,7 @@ constexpr float kMostSecondsQueued = 2;
 // does what finds no rows now but may find some soon.
 void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& settings,
                     Events<ImpactEvent>& impact_events) {
-    BodyRows& state = opening.state;
+    auto& state = opening.state;
     const Bodies& bodies = state.bodies;
     QueuedHits& queued = opening.queued;
     for (uint32_t q = 0; q < queued.size() && has_free_task(state.tasks); ++q) {
@@ -195,7 +195,7 @@ void open_queued(Opening& opening, const DamageSettings& settings, Events<Impact
 
 }  // namespace
 
-void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<ForeseenHit>& foreseen, SoftRows& rows,
+void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<ForeseenHit>& foreseen, WorldRows& rows,
                 WaitingHits waiting, RigidWorld& rigid, DamageLedger ledger, OpenedTasks out) {
     out.opened.clear();
     const DamageSettings& settings = ledger.settings;

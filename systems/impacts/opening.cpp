@@ -36,7 +36,7 @@ Yielding yielding_of(const Bodies& bodies, Row<Bodies> striker, Vec3 point, Vec3
     return {own, turn, inverse(bodies.inertia[striker]) * turn};
 }
 
-Impact aimed(BodyRows& state, Impact impact) {
+Impact aimed(WorldRows& state, Impact impact) {
     const Bodies& bodies = state.bodies;
     const Row<Bodies> striker = impact.striker;
     if (!striker.exists() || !bodies.is_sphere[striker]) return impact;
@@ -67,7 +67,7 @@ ImpactEvent event_of(const Bodies& bodies, const Impact& impact, double inverse_
     return e;
 }
 
-void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, BodyRows& state, Row<Tasks> task) {
+void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, WorldRows& state, Row<Tasks> task) {
     const Bodies& bodies = state.bodies;
     Tasks& tasks = state.tasks;
     TaskContacts& contacts = state.task_contacts;

@@ -17,13 +17,13 @@ Yielding yielding_of(const Bodies& bodies, Row<Bodies> striker, Vec3 point, Vec3
 
 /// A blow as the task will have it: a ball's goes along the struck surface's normal, unless it does not close along
 /// that.
-Impact aimed(BodyRows& state, Impact impact);
+Impact aimed(WorldRows& state, Impact impact);
 
 ImpactEvent event_of(const Bodies& bodies, const Impact& impact, double inverse_mass);
 
 /// Contacts of one body, fastest first: those within a patch radius of one already taken belong to its patch (6.3).
 /// `first_aimed` is the first of them as aimed() has it.
-void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, BodyRows& state, Row<Tasks> task);
+void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, WorldRows& state, Row<Tasks> task);
 
 /// A row of QueuedHits.
 struct QueuedHit {
@@ -35,7 +35,7 @@ struct QueuedHit {
 };
 
 struct Opening {
-    SoftRows& state;
+    WorldRows& state;
     QueuedHits& queued;
     Blows& blows;
     Events<TaskOpened>& opened;

@@ -13,7 +13,7 @@ namespace {
 constexpr float kMostReturned = 2;
 
 struct Taking {
-    SoftRows& state;
+    WorldRows& state;
     Blows& blows;
     RigidWorld& rigid;
     const DamageModels& models;
@@ -151,7 +151,7 @@ struct Taking {
 
 // New rows stand behind those that wait. Each is written anew at the end, once for each body that it reaches, and then
 // the old ones go: rows keep the order of the calls, and in it that of the bodies.
-void take_blows(Serial, Blows& blows, SoftRows& rows, RigidWorld& rigid, const DamageModels& models,
+void take_blows(Serial, Blows& blows, WorldRows& rows, RigidWorld& rigid, const DamageModels& models,
                 DamageCounts& counts, Events<RefusedEvent>& refused) {
     if (blows.size() == 0) return;
     Bodies& bodies = rows.bodies;

@@ -174,7 +174,7 @@ double way_in(const Overload& over, Vec3 gravity, double seconds) {
     return over.sunk + (is_crushed(over) ? 0.5 * length(gravity) * seconds * seconds : 0);
 }
 
-bool is_for_a_run(const BodyRows& state, const LoadedBody& of, const Overload& over, DamageRules rules, Step step) {
+bool is_for_a_run(const WorldRows& state, const LoadedBody& of, const Overload& over, DamageRules rules, Step step) {
     const Bodies& bodies = state.bodies;
     const Row<Bodies> body = of.body;
     if (is_sunk(of, over.sunk) || is_past_blows(of, rules.settings)) return false;
@@ -279,7 +279,7 @@ bool is_allowed(const Bodies& bodies, const QueuedHit& hit, const DamageSettings
 struct Weighing {
     Step step;
     RigidWorld& rigid;
-    BodyRows& rows;
+    WorldRows& rows;
     QueuedHits& queued;
     const Blows& blows;
     DamageRules rules;
@@ -379,7 +379,7 @@ void Weighing::press(const LoadedBody& of, std::span<const BodyLoad> loads, std:
     if (!queue_hit(queued, hit)) told.refused.push(refused_event(bodies, body, "limits.queued_hits"));
 }
 
-bool yields_in_shape(const LoadedBody& of, const DamageRules& rules, const BodyRows& rows) {
+bool yields_in_shape(const LoadedBody& of, const DamageRules& rules, const WorldRows& rows) {
     return of.structure().exists() && of.bodies.is_breakable[of.body] && !of.bodies.hold_count[of.body] &&
            may_be_crushed(of.structures, of.structure(), rules.settings) &&
            rules.models.least_width(rows, of.body).has_value();
@@ -387,7 +387,7 @@ bool yields_in_shape(const LoadedBody& of, const DamageRules& rules, const BodyR
 
 }  // namespace
 
-void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHits& queued, const Blows& blows,
+void weigh_loads(Serial, Step step, RigidWorld& rigid, WorldRows& rows, QueuedHits& queued, const Blows& blows,
                  DamageRules rules, Arena& arena, ToldOfLoads told) {
     told.crushed.clear();
     const DamageSettings& settings = rules.settings;

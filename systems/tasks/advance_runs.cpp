@@ -7,13 +7,13 @@
 namespace cullet {
 namespace {
 
-void list_tasks(SoftRows& rows, const Blows& blows, const DamageModels& models, RunLoops& loops) {
+void list_tasks(WorldRows& rows, const Blows& blows, const DamageModels& models, RunLoops& loops) {
     const Tasks& tasks = rows.tasks;
     for (uint32_t t = 0; t < tasks.size(); ++t)
         if (task_goes_on(tasks, t)) loops.runs.add(models.loop_of(rows, t).run(rows, blows, t, loops.task_zone));
 }
 
-void list_frame_loops(SoftRows& rows, const DamageModels& models, RunLoops& loops) {
+void list_frame_loops(WorldRows& rows, const DamageModels& models, RunLoops& loops) {
     size_t next = 0;
     for (const DamageModel& model : models) {
         const uint32_t zone = loops.frame_zones[next++];
@@ -29,7 +29,7 @@ RunLoops::RunLoops(JobSystem& j, Profiler& p, const DamageModels& models, uint32
         frame_zones.push_back(model.frame_loops().empty() ? task_zone : p.add_zone(model.frame_zone()));
 }
 
-void advance_runs(Serial, SoftRows& rows, const Blows& blows, const DamageModels& models, RunLoops& loops,
+void advance_runs(Serial, WorldRows& rows, const Blows& blows, const DamageModels& models, RunLoops& loops,
                   DamageCounts& counts) {
     loops.runs.clear();
     list_tasks(rows, blows, models, loops);

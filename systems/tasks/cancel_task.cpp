@@ -4,7 +4,7 @@
 
 namespace cullet {
 
-void cancel_task(const DamageModels& models, BodyRows& state, Row<Tasks> task) {
+void cancel_task(const DamageModels& models, WorldRows& state, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
     models.cancel(state, task);
     const StructureCalls& calls = calls_of(state.structures, tasks.source[task]);

@@ -16,7 +16,7 @@ struct Cost {
 
 /// The frame's work on open tasks, whatever models work on them.
 struct Granting {
-    SoftRows& rows;
+    WorldRows& rows;
     const DamageModels& models;
     int64_t units_a_frame;
 
@@ -71,9 +71,15 @@ bool is_due(const Tasks& tasks, uint32_t t) {
            tasks.steps_done[t] > 0 && tasks.crack_count[t] > 0;
 }
 
+uint32_t points_of(const WorldRows& rows, uint32_t t) {
+    const Row<Structures> working = rows.tasks.working[t];
+    return calls_of(rows.structures, working).points_at_birth(rows, working);
+}
+
 /// At most half of what is left, so that other hits go on.
-int64_t units_of_due_birth(const RunRows& state, uint32_t t, int64_t budget) {
-    return std::min(static_cast<int64_t>(units_of_birth(state, t)), std::max<int64_t>(budget, 0) / 2);
+int64_t units_of_due_birth(const WorldRows& state, uint32_t t, int64_t budget) {
+    return std::min(static_cast<int64_t>(units_of_birth(state.tasks, t, points_of(state, t))),
+                    std::max<int64_t>(budget, 0) / 2);
 }
 
 /// Longer runs that so small a share of the frame's units ends, births and all, are not cut into rounds: shards and
@@ -83,7 +89,7 @@ void grant_small(const Granting& g, std::span<const uint32_t> order, int64_t& bu
     Tasks& tasks = g.rows.tasks;
     for (const uint32_t t : order) {
         const int64_t step = g.cost_of(t).step;
-        const auto births = static_cast<int64_t>(units_of_pieces(g.rows, t));
+        const auto births = static_cast<int64_t>(kUnitsBirth * points_of(g.rows, t));
         const int64_t steps = 2 * int64_t{steps_left(g.rows, t)} + births / step, units = steps * step;
         if (g.loop_of(t).is_brief() || units > g.units_a_frame / kSmallShare || units > budget) continue;
         tasks.steps_granted[t] = static_cast<uint32_t>(steps);
@@ -115,7 +121,7 @@ void grant_cuts(const Granting& g, std::span<const uint32_t> order, std::span<co
 // the next frame's steps; cuts of the game are paid in the frame that makes them, and so are births that are known
 // before the pass: a foreseen break beside a full frame of another hit was the worst of scene vase. A task gets at
 // least one step a frame, but for brief ones behind the oldest, so that none can starve.
-void grant_units(Serial, SoftRows& rows, DamageLedger ledger) {
+void grant_units(Serial, WorldRows& rows, DamageLedger ledger) {
     static constexpr uint32_t kMostTasks = 1024;
     struct Work {
         uint32_t order[kMostTasks];

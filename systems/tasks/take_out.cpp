@@ -38,7 +38,7 @@ void drop_hits(WaitingHits waiting, Row<Bodies> body) {
     }
 }
 
-void take_out(SoftRows& rows, WaitingHits waiting, RigidWorld& rigid, const DamageModels& models, Row<Bodies> body) {
+void take_out(WorldRows& rows, WaitingHits waiting, RigidWorld& rigid, const DamageModels& models, Row<Bodies> body) {
     Bodies& bodies = rows.bodies;
     const Tasks& tasks = rows.tasks;
     for (uint32_t t = 0; t < tasks.size(); ++t) {

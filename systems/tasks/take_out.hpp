@@ -8,6 +8,6 @@ namespace cullet {
 void drop_hits(WaitingHits waiting, Row<Bodies> body);
 
 /// With the hits on it, those that are being worked off too. Queries know it until they are refreshed.
-void take_out(SoftRows& rows, WaitingHits waiting, RigidWorld& rigid, const DamageModels& models, Row<Bodies> body);
+void take_out(WorldRows& rows, WaitingHits waiting, RigidWorld& rigid, const DamageModels& models, Row<Bodies> body);
 
 }  // namespace cullet

@@ -307,16 +307,29 @@ TEST(State, WhoEditsWholeShellsClaimsTheirSpringsAndReadsTheirMaterials) {
 
 template <class From, class To>
 constexpr bool kGives = std::is_convertible_v<From&, To&>;
+template <class From, class List>
+constexpr bool kMakes = std::is_convertible_v<From&, List>;
 
 TEST(State, ASetGivesWhatItStandsOnAndNeverMore) {
-    static_assert(kGives<State, SoftRows> && kGives<SoftRows, BodyRows> && kGives<BodyRows, RunRows>);
+    static_assert(kGives<State, WorldRows> && kGives<WorldRows, SoftRows> && kGives<SoftRows, BodyRows> &&
+                  kGives<BodyRows, RunRows>);
     static_assert(kGives<RunRows, ShellRows> && kGives<ShellRows, const MaterialRows>);
     static_assert(!kGives<ShellRows, RunRows> && !kGives<RunRows, BodyRows> && !kGives<BodyRows, SoftRows>);
-    static_assert(!kGives<SoftRows, State>, "no helper finds its way back to everything");
+    static_assert(!kGives<WorldRows, State>, "no helper finds its way back to everything");
     static_assert(!kGives<const RunRows, ShellRows>, "who reads does not write");
     static_assert(!std::is_assignable_v<decltype((std::declval<RunRows&>().materials.density[0])), float>,
                   "only the game changes materials");
-    static_assert(kGives<Workbench, RunRows> && !kGives<Workbench, BodyRows>, "cooking has no bodies");
+    static_assert(!kGives<SoftRows, WorldRows> && !kMakes<SoftRows, MetalTables> && !kMakes<SoftRows, SolidRows>,
+                  "what the thick shell has reaches no metal and no solid");
+    static_assert(kMakes<WorldRows, MetalRows> && !kMakes<MetalRows, SolidRows> && !kGives<MetalRows, RunRows>,
+                  "metal reaches no solid, and no run of the thick shell");
+    static_assert(kMakes<WorldRows, LatticeRows> && !kMakes<LatticeRows, MetalTables> &&
+                      !kGives<LatticeRows, ShellRows> && !kGives<LatticeRows, const ShellRows>,
+                  "what breaks solids reaches no shell");
+    static_assert(kMakes<const WorldRows, Read<MetalRows>> && !kMakes<const WorldRows, MetalRows>,
+                  "who reads does not write");
+    static_assert(kGives<Workbench, RunRows> && kMakes<Workbench, StructuresOfAllKinds> && !kGives<Workbench, BodyRows>,
+                  "cooking has no bodies");
 }
 
 TEST(State, EveryTableIsListedOnce) {
@@ -332,7 +345,7 @@ TEST(State, EveryTableIsListedOnce) {
     });
     constexpr size_t limits = (sizeof(Limits) + alignof(State) - 1) / alignof(State) * alignof(State);
     const size_t sets = []<class... Set>(TypeList<Set...>) { return sizeof...(Set); }(State::Sets{});
-    EXPECT_EQ(bytes + sizeof(MaterialRows) + sizeof(VertexBlocks) + sizeof(ScratchMemory) + sizeof(state.solid_rooms) +
+    EXPECT_EQ(bytes + sizeof(MaterialRows) + sizeof(VertexBlocks) + sizeof(ScratchMemory) + sizeof(state.solid_work) +
                   sets * limits,
               sizeof(State));
 }

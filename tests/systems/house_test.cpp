@@ -8,10 +8,12 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
-#include "components/state.hpp"
+#include "systems/models.hpp"
+#include "systems/world_contents.hpp"
 #include "tests/support/places.hpp"
 
 namespace cullet {
@@ -24,6 +26,9 @@ constexpr uint32_t kFilesWithState = 0;
 constexpr uint32_t kUnnamedParameters = 16;  // copies that are deleted, calls that need no argument; none of a system
 constexpr uint32_t kMutualFolders = 0;
 constexpr uint32_t kWideSystems = 0;
+constexpr uint32_t kManyTables = 24;
+constexpr uint32_t kSystemsOfManyTables = 46;
+constexpr uint32_t kPassesOfAFrame = 55;
 constexpr uint32_t kFilesWithAModel = 0;
 constexpr uint32_t kFilesWithAShell = 0;    // of births and tasks
 constexpr uint32_t kSharedWithAShell = 15;  // of the other shared folders
@@ -161,6 +166,43 @@ TEST(House, SystemsWithMoreThanNineParametersGetFewer) {
                     named += "\n  " + name + " " + std::to_string(count);
                 }
     EXPECT_LE(wide, kWideSystems) << "wanted: 0; today:" << named;
+}
+
+/// Names in "reads  a, b, c" or "writes ..." of a printed system.
+void add_tables(const std::string& line, std::set<std::string>& names) {
+    static const std::regex table("[ ]([a-z_]+)");  // what is no table begins with a capital
+    const std::string list = line.substr(line.find_first_not_of(' ') + 6);
+    for (std::sregex_iterator at(list.begin(), list.end(), table), end; at != end; ++at) names.insert((*at)[1]);
+}
+
+// Of the printed frame and its inner loops: what asks models and structures in turn reaches all that they have. What
+// works for one of them is to declare what it needs.
+TEST(House, SystemsThatReachManyTablesGetFewer) {
+    const std::string frame = make_frame_plan(false, *damage_models()).describe();
+    std::istringstream lines(frame);
+    std::map<std::string, std::set<std::string>> reached;
+    std::string system;
+    uint32_t passes = 0;
+    for (std::string line; std::getline(lines, line);) {
+        static const std::regex head("(?:pass (\\d+)  )?(\\w+)  \\[(?:rows|bodies|serial)\\]");
+        std::smatch found;
+        if (std::regex_search(line, found, head)) {
+            system = found[2];
+            if (found[1].matched) passes = std::max(passes, static_cast<uint32_t>(std::stoul(found[1])));
+        } else if (line.find("  reads  ") != line.npos || line.find("  writes ") != line.npos) {
+            add_tables(line, reached[system]);
+        }
+    }
+    ASSERT_GT(reached.size(), 40u) << frame;
+    uint32_t many = 0;
+    std::string named;
+    for (const auto& [name, tables] : reached)
+        if (tables.size() > kManyTables) {
+            ++many;
+            named += "\n  " + name + " " + std::to_string(tables.size());
+        }
+    EXPECT_LE(many, kSystemsOfManyTables) << "wanted: those that ask in turn; today:" << named;
+    EXPECT_LE(passes, kPassesOfAFrame);
 }
 
 }  // namespace

@@ -126,9 +126,9 @@ TEST(Models, WhatMovesInEachFrameIsGrantedWhatTheModelsBeforeItLeft) {
 TEST(Models, ATaskIsOfTheFirstLoopOfItsModelThatWorksOnIt) {
     const auto state = small_state();
     DamageModel first("first"), second("second");
-    first.loop<cost<3>>("even tasks", empty_loop(), {is_even, is_any})
-        .loop<cost<5>>("the others", empty_loop(), {is_any, is_any});
-    second.loop<cost<7>>("all tasks", empty_loop(), {is_any, is_even, true});
+    first.loop<cost<3>>("even tasks", empty_loop(), {call<is_even>, call<is_any>})
+        .loop<cost<5>>("the others", empty_loop(), {call<is_any>, call<is_any>});
+    second.loop<cost<7>>("all tasks", empty_loop(), {call<is_any>, call<is_even>, true});
     const DamageModels models({first, second});
     EXPECT_EQ(models.loop_of(*state, 0).title(), "even tasks");
     EXPECT_EQ(models.loop_of(*state, 0).cost(*state, 0).step, 3u);

@@ -21,7 +21,7 @@ constexpr size_t kFewestCorners = 4;
 // Lists of a cut: three times what a brick, a bowl and a statue of 6,000 triangles took.
 constexpr uint64_t kListBytes = 16 << 20, kListBytesARow = 2048;
 
-const KnownSolid& known_of(const RunRows& rows, Row<Structures> structure) {
+const KnownSolid& known_of(Read<LatticeRows> rows, Row<Structures> structure) {
     const KnownSolid* const known = known_solid(rows, structure);
     CULLET_ASSERT(known, "nobody made ready for a break of structure %u", structure.index);
     return *known;
@@ -29,7 +29,7 @@ const KnownSolid& known_of(const RunRows& rows, Row<Structures> structure) {
 const Breakable& breakable_of(const KnownSolid& known) {
     return *static_cast<const Breakable*>(known.of_model.get());
 }
-BreakingRoom& breaking(const RunRows& rows, Row<Tasks> task) {
+BreakingRoom& breaking(Read<LatticeRows> rows, Row<Tasks> task) {
     BreakingRoom* const room = room_of_task(rows, task);
     CULLET_ASSERT(room, "task %u has no room for its run", task.index);
     return *room;
@@ -55,7 +55,7 @@ bool is_enough(const RoomOfRun& room, const RoomBytes& bytes) {
     return room.run_bytes >= bytes.run && room.list_bytes >= bytes.lists;
 }
 
-const KnownSolid& know(const SolidRows& rows, SolidRooms& all, Row<CookedSolids> row) {
+const KnownSolid& know(Read<SolidRows> rows, SolidRooms& all, Row<CookedSolids> row) {
     const uint64_t content = rows.cooked_solids.content[row];
     if (const KnownSolid* const found = all.find(content)) return *found;
     auto made = std::make_unique<KnownSolid>();
@@ -74,7 +74,7 @@ const KnownSolid& know(const SolidRows& rows, SolidRooms& all, Row<CookedSolids>
 }
 
 /// Cells of the body before this break; none listed: it has all.
-void list_own(const SolidRows& rows, Row<Structures> structure, std::vector<uint8_t>& own) {
+void list_own(Read<SolidRows> rows, Row<Structures> structure, std::vector<uint8_t>& own) {
     const Row<Solids> solid = solid_of(rows.structures, structure);
     own.clear();
     if (rows.solids.is_whole[solid]) return;
@@ -84,7 +84,7 @@ void list_own(const SolidRows& rows, Row<Structures> structure, std::vector<uint
 }
 
 /// Patches that the body's pins hold; none listed: it has none.
-void list_held(const BodyRows& rows, Row<Bodies> body, const KnownSolid& known, std::vector<uint8_t>& held) {
+void list_held(Read<LatticeRows> rows, Row<Bodies> body, const KnownSolid& known, std::vector<uint8_t>& held) {
     held.clear();
     if (!rows.bodies.has_pins[body]) return;
     for (const SurfacePatch& patch : known.cooked.solid.patches)
@@ -92,7 +92,7 @@ void list_held(const BodyRows& rows, Row<Bodies> body, const KnownSolid& known, 
 }
 
 /// What pins hold of the pieces, and what an explosion gives them: all of what it gives the body.
-void tell_pieces(const RunRows& rows, Row<Tasks> task, const KnownSolid& known, const RoomOfRun& room,
+void tell_pieces(Read<LatticeRows> rows, Row<Tasks> task, const KnownSolid& known, const RoomOfRun& room,
                  BrokenSolid& broken) {
     const auto& patches = known.cooked.solid.patches;
     const auto& normals = breakable_of(known).body.patch_normals;
@@ -117,7 +117,7 @@ void tell_pieces(const RunRows& rows, Row<Tasks> task, const KnownSolid& known, 
 }
 
 /// Pieces that cracks made: teeth go, islands go, faces become smooth. Points that earlier breaks moved stay there.
-void shape_faces(const RunRows& rows, Row<Tasks> task, const KnownSolid& known, BreakingRoom& breaking) {
+void shape_faces(Read<LatticeRows> rows, Row<Tasks> task, const KnownSolid& known, BreakingRoom& breaking) {
     const Breakable& breakable = breakable_of(known);
     RoomOfRun& room = room_of(breaking);
     const uint32_t foreign = room.own.empty() ? kNone : breakable.body.part_count;
@@ -170,8 +170,8 @@ RunStage cut_some(RoomOfRun& room, uint64_t& units) {
     return RunStage::Done;  // it stays whole: a point lay in a plane forty times over
 }
 
-RunStage lay_skin(const RunRows& rows, Row<Tasks> task, const KnownSolid& known, RoomOfRun& room, BrokenSolid& broken,
-                  uint64_t& units) {
+RunStage lay_skin(Read<LatticeRows> rows, Row<Tasks> task, const KnownSolid& known, RoomOfRun& room,
+                  BrokenSolid& broken, uint64_t& units) {
     const RoomScope scope(room.lists, RoomScope::GoesOn());
     const uint32_t label = room.piece++;
     const Row<CookedSolids> row = rows.solids.cooked[solid_of(rows.structures, rows.tasks.source[task])];
@@ -209,7 +209,7 @@ void begin_halving(RoomOfRun& room, const BrokenSolid& broken) {
     room.halving.emplace(piece.points.of(broken.points), triangles, settings);
 }
 
-RunStage choose_hulls(const RunRows& rows, RoomOfRun& room, BrokenSolid& broken, uint64_t& units) {
+RunStage choose_hulls(Read<LatticeRows> rows, RoomOfRun& room, BrokenSolid& broken, uint64_t& units) {
     if (!room.halving) begin_halving(room, broken);
     const RoomScope scope(room.lists, RoomScope::GoesOn());
     units = kUnitsHullTriangle * room.halving->next_rows();
@@ -225,7 +225,7 @@ RunStage choose_hulls(const RunRows& rows, RoomOfRun& room, BrokenSolid& broken,
 }
 
 /// Some of the stage at work. Returns what it cost.
-uint64_t work_stage(const RunRows& rows, Row<Tasks> task, const KnownSolid& known, BreakingRoom& breaking) {
+uint64_t work_stage(Read<LatticeRows> rows, Row<Tasks> task, const KnownSolid& known, BreakingRoom& breaking) {
     RoomOfRun& room = room_of(breaking);
     uint64_t units = 0;
     switch (room.stage) {
@@ -256,9 +256,9 @@ uint64_t work_stage(const RunRows& rows, Row<Tasks> task, const KnownSolid& know
 
 }  // namespace
 
-void prepare_rooms(const RunRows& rows, Row<Structures> structure) {
-    if (!rows.solid_rooms) rows.solid_rooms = std::make_shared<SolidRooms>();
-    SolidRooms& all = *rows.solid_rooms;
+void prepare_rooms(Read<LatticeRows> rows, Row<Structures> structure) {
+    if (!rows.solid_work.rooms) rows.solid_work.rooms = std::make_shared<SolidRooms>();
+    SolidRooms& all = *rows.solid_work.rooms;
     const KnownSolid& known = know(rows, all, rows.solids.cooked[solid_of(rows.structures, structure)]);
     const RoomBytes bytes = bytes_for(known);
     all.rooms.resize(kSolidRooms);
@@ -275,14 +275,14 @@ void prepare_rooms(const RunRows& rows, Row<Structures> structure) {
     }
 }
 
-bool is_pinned_anywhere(const BodyRows& rows, Row<Bodies> body) {
+bool is_pinned_anywhere(Read<LatticeRows> rows, Row<Bodies> body) {
     const KnownSolid& known = known_of(rows, rows.bodies.structure[body]);
     return std::any_of(
         known.cooked.solid.patches.begin(), known.cooked.solid.patches.end(),
         [&](const SurfacePatch& p) { return is_held(rows.pin_boxes, rows.bodies.pins[body], p.centroid.to_float()); });
 }
 
-void begin_run(const BodyRows& rows, Row<Tasks> task) {
+void begin_run(Read<LatticeRows> rows, Row<Tasks> task) {
     const Row<Structures> source = rows.tasks.source[task];
     BreakingRoom& own = breaking(rows, task);
     const KnownSolid& known = known_of(rows, source);
@@ -298,7 +298,7 @@ void begin_run(const BodyRows& rows, Row<Tasks> task) {
     room.stage = RunStage::Done;
     if (!(rows.lattice_runs.speed[task] > 0)) return;
     list_own(rows, source, room.own);
-    BrittleSolid brittle = brittle_of(rows, rows.structures.material[source]);
+    BrittleSolid brittle = brittle_of(rows.materials, rows.structures.material[source]);
     brittle.tensile_strength *= double{rows.tasks.strength_scale[task]};
     CrackRules rules;
     rules.must_break = rows.tasks.load[task] > 0;
@@ -307,7 +307,7 @@ void begin_run(const BodyRows& rows, Row<Tasks> task) {
     room.stage = RunStage::Solve;
 }
 
-bool advance_run(const RunRows& rows, Row<Tasks> task, uint64_t& units) {
+bool advance_run(Read<LatticeRows> rows, Row<Tasks> task, uint64_t& units) {
     BreakingRoom& room = breaking(rows, task);
     const KnownSolid& known = known_of(rows, rows.tasks.source[task]);
     uint64_t sum = 0;
@@ -316,7 +316,7 @@ bool advance_run(const RunRows& rows, Row<Tasks> task, uint64_t& units) {
     return room_of(room).stage == RunStage::Done;
 }
 
-const RoomOfRun& run_of(const RunRows& rows, Row<Tasks> task) {
+const RoomOfRun& run_of(Read<LatticeRows> rows, Row<Tasks> task) {
     return room_of(breaking(rows, task));
 }
 

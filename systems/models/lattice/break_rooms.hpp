@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "components/body_rows.hpp"
+#include "components/lattice.hpp"
 #include "engine/room.hpp"
 #include "systems/models/lattice/cook/breakable_solid.hpp"
 #include "systems/models/lattice/cook/lattice_points.hpp"
@@ -50,16 +50,16 @@ struct RoomOfRun {
 };
 
 /// Makes ready for breaks of this structure.
-void prepare_rooms(const RunRows& rows, Row<Structures> structure);
+void prepare_rooms(Read<LatticeRows> rows, Row<Structures> structure);
 /// The task's run begins, in the room that the task has taken: its blow stands in LatticeRuns.
-void begin_run(const BodyRows& rows, Row<Tasks> task);
+void begin_run(Read<LatticeRows> rows, Row<Tasks> task);
 /// One step of the task's run, which changes nothing but its room. True: it is done. `units`: what it cost beyond
 /// kUnitsAStep.
-bool advance_run(const RunRows& rows, Row<Tasks> task, uint64_t& units);
+bool advance_run(Read<LatticeRows> rows, Row<Tasks> task, uint64_t& units);
 
 /// Whether pins of the body hold anything of it.
-bool is_pinned_anywhere(const BodyRows& rows, Row<Bodies> body);
+bool is_pinned_anywhere(Read<LatticeRows> rows, Row<Bodies> body);
 
-const RoomOfRun& run_of(const RunRows& rows, Row<Tasks> task);
+const RoomOfRun& run_of(Read<LatticeRows> rows, Row<Tasks> task);
 
 }  // namespace cullet::lattice

@@ -7,7 +7,7 @@
 
 namespace cullet::lattice {
 
-Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning) {
+Result<ShellRoom> spawn_body(All<LatticeRows, Bodies> rows, Row<Bodies> body, const Spawning& spawning) {
     rows.bodies.is_breakable[body] = spawning.is_breakable;
     const uint32_t pins = spawning.settings.pin_count;
     if (spawning.is_breakable || pins > 0) prepare_rooms(rows, rows.bodies.structure[body]);
@@ -17,12 +17,12 @@ Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& s
     return room_of_hit(rows, body);
 }
 
-const char* why_not_cut([[maybe_unused]] const BodyRows& rows, Row<Bodies>) {
+const char* why_not_cut([[maybe_unused]] Read<LatticeRows> rows, Row<Bodies>) {
     return "it is a solid of the model lattice, which is not cut yet; cut one of thick_shell";
 }
 
 // It gets its rows when it is known what comes of it.
-WorkingCopy take_copy(BodyRows& rows, Row<Bodies> body) {
+WorkingCopy take_copy(LatticeRows rows, Row<Bodies> body) {
     WorkingCopy made;
     if (taken_rooms(rows) >= kSolidRooms) {
         made.full = "limits.open_hits";
@@ -30,11 +30,11 @@ WorkingCopy take_copy(BodyRows& rows, Row<Bodies> body) {
     }
     const Row<Structures> source = rows.bodies.structure[body];
     made.structure = make_solid(rows, rows.solids.cooked[solid_of(rows.structures, source)], {}, &made.full);
-    if (made.structure.exists()) copy_structure(rows, source, made.structure);
+    if (made.structure.exists()) copy_structure(rows.structures, source, made.structure);
     return made;
 }
 
-void begin_task(BodyRows& rows, Row<Tasks> task) {
+void begin_task(LatticeRows rows, Row<Tasks> task) {
     rows.lattice_runs.reach(task + 1);
     rows.lattice_results.reach(task + 1);
     rows.lattice_runs.clear_rows(task, 1);
@@ -46,18 +46,18 @@ void begin_task(BodyRows& rows, Row<Tasks> task) {
 }
 
 // Its rows are not those of a shell.
-ShellRoom room_of_hit([[maybe_unused]] const BodyRows& rows, Row<Bodies>) {
+ShellRoom room_of_hit([[maybe_unused]] Read<LatticeRows> rows, Row<Bodies>) {
     return {};
 }
 
-bool may_find_room([[maybe_unused]] const BodyRows& rows, Row<Bodies>) {
+bool may_find_room([[maybe_unused]] Read<LatticeRows> rows, Row<Bodies>) {
     return true;
 }
 
 // Its body makes it again, and knows where its pins are.
-void restore_run([[maybe_unused]] RunRows& rows, Row<Tasks>) {}
+void restore_run([[maybe_unused]] LatticeRows rows, Row<Tasks>) {}
 
-void restore_body(BodyRows& rows, Row<Bodies> body) {
+void restore_body(LatticeRows rows, Row<Bodies> body) {
     const Row<Structures> structure = rows.bodies.structure[body];
     if (rows.bodies.is_breakable[body]) prepare_rooms(rows, structure);
     const Row<Tasks> task(rows.bodies.task[body]);
@@ -70,7 +70,7 @@ void restore_body(BodyRows& rows, Row<Bodies> body) {
         if (advance_run(rows, task, units)) return;
 }
 
-std::string trouble_of_run(const RunRows& rows, uint32_t task) {
+std::string trouble_of_run(Read<LatticeRows> rows, uint32_t task) {
     if (is_shell(rows.structures, rows.tasks.working[task]) || is_shell(rows.structures, rows.tasks.source[task]))
         return "is no solid";
     if (task >= rows.lattice_runs.size() || task >= rows.lattice_results.size()) return "has no blow";
@@ -80,10 +80,10 @@ std::string trouble_of_run(const RunRows& rows, uint32_t task) {
     return rows.tasks.steps_done[task] <= kMostSteps ? "" : "has more steps than there are";
 }
 
-Result<void> check_rows(const SoftRows& rows, uint8_t own, const std::string& name, const char* advice) {
+Result<void> check_rows(Read<LatticeRows> rows, uint8_t own, const std::string& name, const char* advice) {
     uint32_t open = 0;
     for (uint32_t t = 0; t < rows.tasks.size(); ++t)
-        open += static_cast<TaskState>(rows.tasks.state[t]) != TaskState::Free && rows.model_of(t) == own;
+        open += static_cast<TaskState>(rows.tasks.state[t]) != TaskState::Free && model_of(rows, t) == own;
     if (open > kSolidRooms)
         return Error{name + ": " + std::to_string(open) + " solids break at a time, of " + std::to_string(kSolidRooms) +
                      ". " + advice};

@@ -108,9 +108,8 @@ Result<std::shared_ptr<Model::Contents>> cook_lattice(Cooking& from) {
 
     BreakableSolid body = make_breakable(cooked->solid);
     if (given.strength_modulus > 0) scatter_strength(body, double{given.strength_modulus}, from.settings.seed);
-    const MaterialRows materials{state.materials, state.material_traits};
-    const Threshold least =
-        measure_threshold(body, brittle_of(materials, structures.material[structure]), structures.mass[structure]);
+    const Threshold least = measure_threshold(body, brittle_of(state.materials, structures.material[structure]),
+                                              structures.mass[structure]);
     structures.first_crack_speed[structure] = static_cast<float>(least.speed);
     structures.first_crack_force[structure] = static_cast<float>(least.force);
     from.tell(1);

@@ -12,7 +12,7 @@ constexpr double kFlatRadius = 0.5;  // of the body's reach: the corner that mee
 
 }  // namespace
 
-bool gather_blow(BodyRows& rows, const Blows& blows, Row<Tasks> task) {
+bool gather_blow(LatticeRows rows, const Blows& blows, Row<Tasks> task) {
     rows.lattice_runs.reach(task + 1);
     rows.lattice_results.reach(task + 1);
     rows.lattice_runs.clear_rows(task, 1);

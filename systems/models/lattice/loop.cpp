@@ -1,6 +1,7 @@
 #include "systems/models/lattice/loop.hpp"
 
 #include "systems/models/lattice/systems.hpp"
+#include "systems/structures/tetrahedra/skin.hpp"
 #include "systems/tasks/birth_cost.hpp"
 
 namespace cullet::lattice {
@@ -12,11 +13,11 @@ InnerLoop<TaskWorld> make_loop() {
     return loop;
 }
 
-RunCost cost_of(const RunRows& rows, uint32_t task) {
-    return {kUnitsAStep, units_of_birth(rows, task)};
+RunCost cost_of(Read<LatticeRows> rows, uint32_t task) {
+    return {kUnitsAStep, units_of_birth(rows.tasks, task, points_at_birth(rows, rows.tasks.working[task]))};
 }
 
-bool works_on(const RunRows& rows, uint32_t task) {
+bool works_on(Read<LatticeRows> rows, uint32_t task) {
     return !is_shell(rows.structures, rows.tasks.source[task]);
 }
 

@@ -10,7 +10,7 @@ inline constexpr uint32_t kMostSteps = 4096;      // of a run: it ends when it i
 
 InnerLoop<TaskWorld> make_loop();
 
-RunCost cost_of(const RunRows& rows, uint32_t task);
-bool works_on(const RunRows& rows, uint32_t task);
+RunCost cost_of(Read<LatticeRows> rows, uint32_t task);
+bool works_on(Read<LatticeRows> rows, uint32_t task);
 
 }  // namespace cullet::lattice

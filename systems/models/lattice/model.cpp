@@ -13,7 +13,7 @@ DamageModel lattice_model() {
     DamageModel model("lattice");
     model.at(Slot::Wake).then<start_breaks>();
     model.at(Slot::Group).then<count_pieces>();
-    model.loop<cost_of>("lattice: one break", make_loop(), {works_on});
+    model.loop<cost_of>("lattice: one break", make_loop(), {call<works_on>});
     model.cook_settings<&CookSettings::lattice>("lattice");
     model.cooks<cook_lattice>().spawns<spawn_body>().says_why_not_cut<why_not_cut>();
     model.takes<take_copy, begin_task>().needs_room<room_of_hit, may_find_room>();

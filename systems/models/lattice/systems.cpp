@@ -8,12 +8,12 @@
 
 namespace cullet::lattice {
 
-void start_breaks(EachOwn<TaskOpened> opened, BodyRows& rows, const Blows& blows) {
+void start_breaks(EachOwn<TaskOpened> opened, LatticeRows rows, const Blows& blows) {
     gather_blow(rows, blows, opened->task);
     begin_run(rows, opened->task);
 }
 
-void work_break(Of<Tasks> task, BodyRows& rows) {
+void work_break(Of<Tasks> task, LatticeRows rows) {
     const Row<Tasks> t = task.row;
     Tasks& tasks = rows.tasks;
     tasks.steps_granted[t] -= tasks.steps_granted[t] > 0;
@@ -36,7 +36,7 @@ void work_break(Of<Tasks> task, BodyRows& rows) {
     tasks.state[t] = static_cast<uint8_t>(TaskState::Whole);  // count_pieces tells whether it broke
 }
 
-void count_pieces(EachOwn<TaskEnded> ended, RunRows& rows) {
+void count_pieces(EachOwn<TaskEnded> ended, Tables<Tasks, SolidWork> rows) {
     const Row<Tasks> task = ended->task;
     Tasks& tasks = rows.tasks;
     tasks.part_count[task] = 1;

@@ -5,10 +5,10 @@
 namespace cullet::lattice {
 
 /// The blow of a task that opens, and a room for its run.
-void start_breaks(EachOwn<TaskOpened> opened, BodyRows& rows, const Blows& blows);
+void start_breaks(EachOwn<TaskOpened> opened, LatticeRows rows, const Blows& blows);
 /// Inner loop: one step of the break; the last ones cut the pieces' skins and choose their hulls.
-void work_break(Of<Tasks> task, BodyRows& rows);
+void work_break(Of<Tasks> task, LatticeRows rows);
 /// What came of it.
-void count_pieces(EachOwn<TaskEnded> ended, RunRows& rows);
+void count_pieces(EachOwn<TaskEnded> ended, Tables<Tasks, SolidWork> rows);
 
 }  // namespace cullet::lattice

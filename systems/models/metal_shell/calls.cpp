@@ -16,7 +16,7 @@ uint32_t spare_vertices(uint32_t vertices) {
 }
 
 /// With room to tear.
-MetalRoom metal_room_of_hit(const ShellRows& rows, Row<Structures> structure, const ShellRoom& shell) {
+MetalRoom metal_room_of_hit(Read<MetalShellRows> rows, Row<Structures> structure, const ShellRoom& shell) {
     MetalRoom room = metal_room_of(rows, structure);
     room.springs += kSpringsAVertex * spare_vertices(room.vertices);
     room.vertices = shell.vertices, room.elements = shell.elements;
@@ -24,7 +24,7 @@ MetalRoom metal_room_of_hit(const ShellRows& rows, Row<Structures> structure, co
 }
 
 /// A copy with rows of metal, filled; kNone and the limit's name when there is no room.
-Row<Structures> copy_with_metal(ShellRows& rows, Row<Structures> source, const char** full) {
+Row<Structures> copy_with_metal(MetalShellRows rows, Row<Structures> source, const char** full) {
     ShellRoom room = room_of(rows, source);
     room.blocks = room.links = 0;
     const Row<Structures> copy = copy_shell(rows, source, room, full);
@@ -39,7 +39,7 @@ Row<Structures> copy_with_metal(ShellRows& rows, Row<Structures> source, const c
 
 }  // namespace
 
-Result<Row<Structures>> spawn_shell(ShellRows& rows, Row<Structures> source, const Spawning& spawning) {
+Result<Row<Structures>> spawn_shell(MetalShellRows rows, Row<Structures> source, const Spawning& spawning) {
     const SpawnSettings& settings = spawning.settings;
     if (settings.pin_count == 0) return source;
     const char* full = "";
@@ -49,7 +49,7 @@ Result<Row<Structures>> spawn_shell(ShellRows& rows, Row<Structures> source, con
     for (uint32_t i = 0; i < settings.pin_count; ++i)
         pinned += apply_pins(ShellView(rows, copy), settings.pins[i].low, settings.pins[i].high);
     if (pinned == 0) {
-        release_shell(rows, copy);
+        release_metal_shell(rows, copy);
         return Error{"no vertex lies in any of the " + std::to_string(settings.pin_count) +
                      " pin boxes; they are in body coordinates, in metres."};
     }
@@ -57,11 +57,11 @@ Result<Row<Structures>> spawn_shell(ShellRows& rows, Row<Structures> source, con
     return copy;
 }
 
-Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning) {
+Result<ShellRoom> spawn_body(MetalRows rows, Row<Bodies> body, const Spawning& spawning) {
     // What a crash gives back hangs on the metal: what yields is not springy, whatever it meets.
     if (!(spawning.settings.contact.restitution >= 0))
         rows.bodies.restitution[body] =
-            rows.materials.restitution[rows.structures.material[rows.bodies.structure[body]]];
+            rows.shell_rows.materials.restitution[rows.structures.material[rows.bodies.structure[body]]];
     rows.bodies.is_breakable[body] = spawning.is_breakable;
     if (body < rows.metal_impacts.size()) rows.metal_impacts.clear_rows(body, 1);
     if (body < rows.metal_presses.size()) rows.metal_presses.clear_rows(body, 1);
@@ -69,7 +69,7 @@ Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& s
     return room_of_hit(rows, body);
 }
 
-bool note_press(BodyRows& rows, Row<Bodies> body, const Press& press) {
+bool note_press(MetalRows rows, Row<Bodies> body, const Press& press) {
     MetalPresses& presses = rows.metal_presses;
     presses.reach(body + 1);
     presses.is_on[body] = 1;
@@ -79,23 +79,23 @@ bool note_press(BodyRows& rows, Row<Bodies> body, const Press& press) {
     return true;
 }
 
-float flat_width(const BodyRows& rows, Row<Bodies> body) {
+float flat_width(Read<MetalRows> rows, Row<Bodies> body) {
     constexpr float kWalls = 6;
-    return kWalls * rows.shells.thickness[rows.shell_of(rows.bodies.structure[body])];
+    return kWalls * rows.shell_rows.shells.thickness[rows.shell_rows.shell_of(rows.bodies.structure[body])];
 }
 
-const char* why_not_cut(const BodyRows& rows, Row<Bodies> body) {
-    const bool is_metal = rows.metal_of(rows.bodies.structure[body]).exists();
+const char* why_not_cut(Read<MetalRows> rows, Row<Bodies> body) {
+    const bool is_metal = metal_of(rows, rows.bodies.structure[body]).exists();
     return is_metal ? "it is of sheet metal, which dents; cut one of a material that breaks" : nullptr;
 }
 
 // Its rows of metal come with those of its shell.
-void inherit_nothing(BodyRows& rows, Row<Bodies>, Row<Bodies> piece) {
+void inherit_nothing(MetalRows rows, Row<Bodies>, Row<Bodies> piece) {
     if (piece < rows.metal_impacts.size()) rows.metal_impacts.clear_rows(piece, 1);
     if (piece < rows.metal_presses.size()) rows.metal_presses.clear_rows(piece, 1);
 }
 
-WorkingCopy take_shell(BodyRows& rows, Row<Bodies> body) {
+WorkingCopy take_shell(MetalRows rows, Row<Bodies> body) {
     WorkingCopy made;
     const Row<Structures> source = rows.bodies.structure[body];
     const ShellRoom room = room_of_hit(rows, body);
@@ -107,7 +107,7 @@ WorkingCopy take_shell(BodyRows& rows, Row<Bodies> body) {
     return made;
 }
 
-void begin_run(BodyRows& rows, Row<Tasks> task) {
+void begin_run(MetalRows rows, Row<Tasks> task) {
     rows.metal_runs.reach(task + 1);
     rows.striker_fronts.reach((task + 1) * kFrontRows);
     rows.metal_runs.clear_rows(task, 1);
@@ -115,9 +115,10 @@ void begin_run(BodyRows& rows, Row<Tasks> task) {
     rows.hidden_runs.end_time[task] = rows.hidden_runs.quiet_time[task] = 0;
 }
 
-ShellRoom room_of_hit(const BodyRows& rows, Row<Bodies> body) {
+ShellRoom room_of_hit(Read<MetalRows> rows, Row<Bodies> body) {
     const Row<Structures> structure = rows.bodies.structure[body];
-    const uint32_t vertices = rows.shells.vertices[rows.shell_of(structure)].count, spare = spare_vertices(vertices);
+    const uint32_t vertices = rows.shell_rows.shells.vertices[rows.shell_rows.shell_of(structure)].count,
+                   spare = spare_vertices(vertices);
     ShellRoom room = room_of(rows, structure);
     room.vertices = (vertices + kLanes - 1) / kLanes * kLanes + spare;
     room.elements += 2 * spare, room.hinges += 3 * spare;
@@ -125,12 +126,14 @@ ShellRoom room_of_hit(const BodyRows& rows, Row<Bodies> body) {
     return room;
 }
 
-bool may_find_room(const BodyRows& rows, Row<Bodies> body) {
+bool may_find_room(Read<MetalRows> rows, Row<Bodies> body) {
     const ShellRoom room = room_of_hit(rows, body);
-    const Row<Shells> own = rows.shell_of(rows.bodies.structure[body]);
-    return uint64_t{rows.shells.vertices[own].capacity} + room.vertices <= rows.vertices.limit() &&
-           uint64_t{rows.shells.elements[own].capacity} + room.elements <= rows.elements.limit() &&
-           uint64_t{rows.shells.hinges[own].capacity} + room.hinges <= rows.hinges.limit();
+    const Row<Shells> own = rows.shell_rows.shell_of(rows.bodies.structure[body]);
+    return uint64_t{rows.shell_rows.shells.vertices[own].capacity} + room.vertices <=
+               rows.shell_rows.vertices.limit() &&
+           uint64_t{rows.shell_rows.shells.elements[own].capacity} + room.elements <=
+               rows.shell_rows.elements.limit() &&
+           uint64_t{rows.shell_rows.shells.hinges[own].capacity} + room.hinges <= rows.shell_rows.hinges.limit();
 }
 
 }  // namespace cullet::metal_shell

@@ -64,23 +64,24 @@ std::string trouble_of_cells(const MetalView& metal) {
 
 }  // namespace
 
-Result<void> check_metal_shell(const ShellView& shell, Wear wear, const std::string& name, const char* advice) {
+Result<void> check_metal_shell(MetalShellRows rows, Row<Structures> structure, Wear wear, const std::string& name,
+                               const char* advice) {
+    const ShellView shell(rows, structure);
     if (const Result<void> sound = check_shell_rows(shell, wear, name, advice); !sound) return sound;
-    const ShellRows& rows = shell.state;
-    const Row<MetalShells> row = rows.metal_of(shell.structure);
+    const Row<MetalShells> row = metal_of(rows, shell.structure);
     const auto refuse = [&](const std::string& what) { return Error{name + ": " + what + ". " + advice}; };
     if (!row.exists() || row >= rows.metal_shells.size() || !rows.metal_shells.pool.is_taken(row, 1) ||
         rows.metal_shells.structure[row] != shell.structure)
         return refuse("it is of metal, and has no sub-shells");
-    const MetalView metal(shell.state, shell.structure);
+    const MetalView metal(rows, structure);
     for (auto* look : {trouble_of_counts, trouble_of_vertices, trouble_of_cells})
         if (const std::string trouble = look(metal); !trouble.empty()) return refuse(trouble);
     return {};
 }
 
-std::string trouble_of_run(const RunRows& rows, uint32_t task) {
+std::string trouble_of_run(Read<MetalRows> rows, uint32_t task) {
     if (task >= rows.metal_runs.size()) return "has no row in metal_runs";
-    return rows.metal_of(rows.tasks.working[task]).exists() ? "" : "works on a shell that is not of metal";
+    return metal_of(rows, rows.tasks.working[task]).exists() ? "" : "works on a shell that is not of metal";
 }
 
 namespace {
@@ -104,7 +105,7 @@ std::string trouble_of_impact(const Table& table, uint32_t row, uint32_t bodies)
 
 namespace {
 
-std::string trouble_of_front(const SoftRows& rows, uint32_t task) {
+std::string trouble_of_front(Read<MetalRows> rows, uint32_t task) {
     const MetalRuns& runs = rows.metal_runs;
     if (runs.shape[task] != static_cast<uint8_t>(StrikerShape::Front)) return {};
     const std::string where = "metal_runs[" + std::to_string(task) + "]";
@@ -117,7 +118,7 @@ std::string trouble_of_front(const SoftRows& rows, uint32_t task) {
 
 }  // namespace
 
-Result<void> check_metal_rows(const SoftRows& rows, uint8_t, const std::string& name, const char* advice) {
+Result<void> check_metal_rows(Read<MetalRows> rows, uint8_t, const std::string& name, const char* advice) {
     for (uint32_t t = 0; t < rows.metal_runs.size(); ++t)
         if (const std::string trouble = trouble_of_impact(rows.metal_runs, t, rows.bodies.size()); !trouble.empty())
             return Error{name + ": " + trouble + ". " + advice};

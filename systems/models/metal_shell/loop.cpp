@@ -17,13 +17,13 @@ InnerLoop<TaskWorld> make_loop() {
 }
 
 // Whether it will be dented nobody knows yet.
-RunCost cost_of(const RunRows& rows, uint32_t task) {
-    const uint64_t vertices = rows.shells.vertices[rows.shell_of(rows.tasks.working[task])].count;
+RunCost cost_of(Read<MetalRows> rows, uint32_t task) {
+    const uint64_t vertices = rows.shell_rows.shells.vertices[rows.shell_rows.shell_of(rows.tasks.working[task])].count;
     return {kUnitsImpact * vertices, is_ahead(rows.tasks, task) ? 0 : kUnitsDented * vertices};
 }
 
-bool works_on(const RunRows& rows, uint32_t task) {
-    return rows.metal_of(rows.tasks.working[task]).exists();
+bool works_on(Read<MetalRows> rows, uint32_t task) {
+    return metal_of(rows, rows.tasks.working[task]).exists();
 }
 
 }  // namespace cullet::metal_shell

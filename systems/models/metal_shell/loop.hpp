@@ -8,7 +8,7 @@ inline constexpr float kStep = 1e-3f;  // s of the run's clock: an impact is one
 
 InnerLoop<TaskWorld> make_loop();
 
-RunCost cost_of(const RunRows& rows, uint32_t task);
-bool works_on(const RunRows& rows, uint32_t task);
+RunCost cost_of(Read<MetalRows> rows, uint32_t task);
+bool works_on(Read<MetalRows> rows, uint32_t task);
 
 }  // namespace cullet::metal_shell

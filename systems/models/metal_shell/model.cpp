@@ -17,7 +17,7 @@ DamageModel metal_shell_model() {
     model.at(Slot::Wake).then<gather_impulses>();
     model.at(Slot::Close).then<end_impacts>();
     model.at(Slot::Group).then<group_dented>();
-    TaskCalls calls{works_on};
+    TaskCalls calls{call<works_on>};
     calls.is_brief = true;
     model.loop<cost_of>("metal shell: one impact", make_loop(), calls);
     model.cook_settings<&CookSettings::metal_shell>();

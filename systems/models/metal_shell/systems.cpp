@@ -21,7 +21,7 @@ constexpr double kLeastFromOneSide = 0.3;  // of an explosion's impulses, that t
 constexpr float kLeastFront = 0.1f;        // radius of its front, of its reach
 constexpr double kLeastOverlap = 1e-3;     // m, that published springs are pressed by
 
-double closing_speed(const BodyRows& rows, Row<Tasks> task, uint32_t c) {
+double closing_speed(Read<MetalRows> rows, Row<Tasks> task, uint32_t c) {
     const Vec3d point(rows.task_contacts.point[c]), normal(rows.task_contacts.normal[c]);
     const Vec3d arm = point - rows.bodies.centre[rows.tasks.body[task]];
     const Vec3d moving = Vec3d(rows.tasks.start_velocity[task]) + cross(Vec3d(rows.tasks.start_spin[task]), arm);
@@ -29,14 +29,14 @@ double closing_speed(const BodyRows& rows, Row<Tasks> task, uint32_t c) {
 }
 
 // N s. As published it is that of springs which push harder on the way in: the same but for what their steps lose.
-float impulse_of(const BodyRows& rows, Row<MetalShells> metal, Row<Tasks> task, double speed, double mass) {
+float impulse_of(Read<MetalRows> rows, Row<MetalShells> metal, Row<Tasks> task, double speed, double mass) {
     const Row<Materials> material = rows.structures.material[rows.tasks.working[task]];
-    const double e = double{rows.materials.restitution[material]};
+    const double e = double{rows.shell_rows.materials.restitution[material]};
     if (!(rows.metal_shells.published[metal] & kPublishedContact)) return static_cast<float>((1 + e) * mass * speed);
-    const Row<Shells> shell = rows.shell_of(rows.tasks.working[task]);
+    const Row<Shells> shell = rows.shell_rows.shell_of(rows.tasks.working[task]);
     PenaltyContact contact;
     contact.mass = mass, contact.speed = speed, contact.recede = e * e;
-    contact.depth = std::max(0.5 * double{rows.shells.thickness[shell]}, kLeastOverlap);
+    contact.depth = std::max(0.5 * double{rows.shell_rows.shells.thickness[shell]}, kLeastOverlap);
     return static_cast<float>(press(contact).impulse);
 }
 
@@ -46,12 +46,12 @@ struct Contact {
     double speed = 0, inverse_mass = 0, energy = 0;  // m/s, 1/kg of both, J
 };
 
-double own_inverse_mass(const BodyRows& rows, Row<Tasks> task, Vec3d point, Vec3d push) {
+double own_inverse_mass(Read<MetalRows> rows, Row<Tasks> task, Vec3d point, Vec3d push) {
     return inverse_mass_at(rows.bodies, rows.tasks.body[task], point, push);
 }
 
 // The one that brings most says who strikes.
-Contact strongest_contact(const BodyRows& rows, Row<Tasks> task) {
+Contact strongest_contact(Read<MetalRows> rows, Row<Tasks> task) {
     const TaskContacts& contacts = rows.task_contacts;
     const uint32_t first = rows.tasks.first_contact[task], end = first + rows.tasks.contact_count[task];
     Contact strongest;
@@ -67,16 +67,16 @@ Contact strongest_contact(const BodyRows& rows, Row<Tasks> task) {
 }
 
 // Of two that are both of metal each takes what its softness is of both: the force is the same.
-double share_of(const BodyRows& rows, Row<Tasks> task, Row<Bodies> striker) {
+double share_of(Read<MetalRows> rows, Row<Tasks> task, Row<Bodies> striker) {
     if (!striker.exists() || !rows.bodies.is_breakable[striker]) return 1;
     const Row<Structures> other = rows.bodies.structure[striker];
-    if (!other.exists() || !rows.metal_of(other).exists()) return 1;
-    const double own = double{rows.metal_shells.crush_pressure[rows.metal_of(rows.tasks.source[task])]},
-                 his = double{rows.metal_shells.crush_pressure[rows.metal_of(other)]};
+    if (!other.exists() || !metal_of(rows, other).exists()) return 1;
+    const double own = double{rows.metal_shells.crush_pressure[metal_of(rows, rows.tasks.source[task])]},
+                 his = double{rows.metal_shells.crush_pressure[metal_of(rows, other)]};
     return own > 0 && his > 0 ? his / (own + his) : 0.5;
 }
 
-void gather_contacts(BodyRows& rows, Row<Tasks> task, const Contact& strongest, const QueryIndex& index) {
+void gather_contacts(MetalRows rows, Row<Tasks> task, const Contact& strongest, const QueryIndex& index) {
     MetalRuns& runs = rows.metal_runs;
     const TaskContacts& contacts = rows.task_contacts;
     const uint32_t first = rows.tasks.first_contact[task], end = first + rows.tasks.contact_count[task];
@@ -100,13 +100,13 @@ void gather_contacts(BodyRows& rows, Row<Tasks> task, const Contact& strongest, 
     runs.striker[task] = striker;
     runs.speed[task] = static_cast<float>(strongest.speed);
     runs.energy[task] = share_of(rows, task, striker) * 0.5 * strongest.speed * strongest.speed / inverse_mass;
-    const Row<MetalShells> metal = rows.metal_of(rows.tasks.working[task]);
+    const Row<MetalShells> metal = metal_of(rows, rows.tasks.working[task]);
     runs.impulse[task] = impulse_of(rows, metal, task, strongest.speed, 1 / inverse_mass);
 }
 
 // The front of the wave is a ball round the centre when it meets the body. What the wall's pieces would have of it by
 // themselves, less what the body has as a whole, is what bends it.
-void gather_explosion(BodyRows& rows, Row<Tasks> task, const Blows& blows, uint32_t blow) {
+void gather_explosion(MetalRows rows, Row<Tasks> task, const Blows& blows, uint32_t blow) {
     const Row<Bodies> body = rows.tasks.body[task];
     const ShellView shell(rows, rows.tasks.working[task]);
     const Explosion explosion = explosion_of(blows, blow);
@@ -121,7 +121,7 @@ void gather_explosion(BodyRows& rows, Row<Tasks> task, const Blows& blows, uint3
     double least = 1e30;
     Vec3d nearest;
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-        const Vec3d place(rows.vertices.rest[shell.vertex(v)]);
+        const Vec3d place(rows.shell_rows.vertices.rest[shell.vertex(v)]);
         if (const double away = length(place - from); away < least) least = away, nearest = place;
     }
     MetalRuns& runs = rows.metal_runs;
@@ -135,7 +135,7 @@ void gather_explosion(BodyRows& rows, Row<Tasks> task, const Blows& blows, uint3
 }
 
 // What comes again at the same place belongs to what came before: the dent hangs on the sum.
-void join_earlier(BodyRows& rows, Row<Tasks> task, Step step, const QueryIndex& index) {
+void join_earlier(MetalRows rows, Row<Tasks> task, Step step, const QueryIndex& index) {
     MetalRuns& runs = rows.metal_runs;
     const Row<Bodies> body = rows.tasks.body[task];
     Knock knock;
@@ -161,14 +161,14 @@ void join_earlier(BodyRows& rows, Row<Tasks> task, Step step, const QueryIndex& 
 }
 
 // By a load that stands in the queue, and not by a blow.
-bool is_press(const BodyRows& rows, Row<Tasks> task) {
+bool is_press(Read<MetalRows> rows, Row<Tasks> task) {
     const Row<Bodies> body = rows.tasks.body[task];
     return rows.tasks.load[task] > 0 && rows.tasks.contact_count[task] == 1 && body < rows.metal_presses.size() &&
            rows.metal_presses.is_on[body];
 }
 
 // The dent begins where the sheet would be without who presses: that far behind his front.
-void gather_press(BodyRows& rows, Row<Tasks> task, const QueryIndex& index) {
+void gather_press(MetalRows rows, Row<Tasks> task, const QueryIndex& index) {
     MetalRuns& runs = rows.metal_runs;
     const TaskContacts& contacts = rows.task_contacts;
     const uint32_t c = rows.tasks.first_contact[task];
@@ -185,7 +185,7 @@ void gather_press(BodyRows& rows, Row<Tasks> task, const QueryIndex& index) {
     runs.striker[task] = striker;
 }
 
-void gather(BodyRows& rows, Row<Tasks> task, Step step, const Blows& blows, const QueryIndex& index) {
+void gather(MetalRows rows, Row<Tasks> task, Step step, const Blows& blows, const QueryIndex& index) {
     if (is_press(rows, task)) return gather_press(rows, task, index);
     MetalRuns& runs = rows.metal_runs;
     if (const Contact strongest = strongest_contact(rows, task); strongest.row != kNone)
@@ -202,7 +202,7 @@ namespace {
 
 // What it took is not in the striker's motion any more; it goes on through the hole, and what was punched out with it.
 // Else the touch is solved as any other, between the bodies as they are now.
-void let_through(BodyRows& rows, Row<Tasks> task, const Contact& strongest, const Dent& dent, double work) {
+void let_through(MetalRows rows, Row<Tasks> task, const Contact& strongest, const Dent& dent, double work) {
     const MetalRuns& runs = rows.metal_runs;
     const double own_share = share_of(rows, task, runs.striker[task]);
     const double now = own_share * strongest.energy, left = std::min(now, std::max(0.0, dent.tearing - work));
@@ -220,7 +220,7 @@ void let_through(BodyRows& rows, Row<Tasks> task, const Contact& strongest, cons
 }
 
 // The wave goes through; what it punched out has the speed that a bare wall would have of it.
-void blow_through(BodyRows& rows, Row<Tasks> task, const Blows& blows, uint32_t blow, uint32_t vertex) {
+void blow_through(MetalRows rows, Row<Tasks> task, const Blows& blows, uint32_t blow, uint32_t vertex) {
     const Vec3d impulse = blows.impulse[blow];
     Punch punch;
     punch.impulse = length(impulse);
@@ -238,7 +238,7 @@ struct Piercing {
     uint32_t blow = kNone;
     bool exists() const { return contact.row != kNone || blow != kNone; }
 };
-Piercing piercing_of(const BodyRows& rows, Row<Tasks> task, const Blows& blows) {
+Piercing piercing_of(Read<MetalRows> rows, Row<Tasks> task, const Blows& blows) {
     Piercing piercing;
     piercing.contact = strongest_contact(rows, task);
     if (piercing.contact.row != kNone && !rows.task_contacts.striker[piercing.contact.row].exists())
@@ -249,16 +249,16 @@ Piercing piercing_of(const BodyRows& rows, Row<Tasks> task, const Blows& blows) 
     return piercing;
 }
 
-void tear(BodyRows& rows, Row<Tasks> task, const Blows& blows, const Dent& dent) {
+void tear(MetalRows rows, Row<Tasks> task, const Blows& blows, const Dent& dent) {
     const MetalView metal(rows, rows.tasks.working[task]);
     const Piercing piercing = piercing_of(rows, task, blows);
-    number_parts(metal.shell, rows.shell_parts.of_task(task));
+    number_parts(metal.shell, rows.shell_rows.shell_parts.of_task(task));
     const Tear torn = tear_sheet(metal, dent, rows.pin_boxes, piercing.exists());
     rows.tasks.crack_count[task] += torn.cut_edges;
     rows.tasks.lacks_room[task] = torn.is_full;
     if (torn.cut_edges > 0) rows.metal_runs.restitution[task] = 0;
     // A star beside an older hole may cut something off, too.
-    const bool parts = torn.is_through || find_torn(metal.shell, rows.shell_parts.of_task(task)) > 1;
+    const bool parts = torn.is_through || find_torn(metal.shell, rows.shell_rows.shell_parts.of_task(task)) > 1;
     if (!parts || !piercing.exists()) return;
     if (piercing.contact.row != kNone)
         let_through(rows, task, piercing.contact, dent, torn.work);
@@ -268,7 +268,7 @@ void tear(BodyRows& rows, Row<Tasks> task, const Blows& blows, const Dent& dent)
 
 }  // namespace
 
-void gather_impulses(EachOwn<TaskOpened> opened, Step step, const Blows& blows, BodyRows& rows,
+void gather_impulses(EachOwn<TaskOpened> opened, Step step, const Blows& blows, MetalRows rows,
                      const QueryIndex& index) {
     const Row<Tasks> task = opened->task;
     const Row<Structures> source = rows.tasks.source[task], working = rows.tasks.working[task];
@@ -278,7 +278,7 @@ void gather_impulses(EachOwn<TaskOpened> opened, Step step, const Blows& blows, 
     gather(rows, task, step, blows, index);
 }
 
-void work_impact(Of<Tasks> task, BodyRows& rows, const Blows& blows) {
+void work_impact(Of<Tasks> task, MetalRows rows, const Blows& blows) {
     const Row<Tasks> t = task.row;
     Tasks& tasks = rows.tasks;
     tasks.steps_granted[t] -= tasks.steps_granted[t] > 0;
@@ -305,7 +305,7 @@ void work_impact(Of<Tasks> task, BodyRows& rows, const Blows& blows) {
     if (dent.tearing > 0) tear(rows, t, blows, dent);
 }
 
-void end_impacts(Serial, Step step, const Events<TaskEnded>& ended, BodyRows& rows, RigidWorld& rigid) {
+void end_impacts(Serial, Step step, const Events<TaskEnded>& ended, MetalRows rows, RigidWorld& rigid) {
     MetalImpacts& impacts = rows.metal_impacts;
     const MetalRuns& runs = rows.metal_runs;
     for (const TaskEnded& e : ended) {
@@ -316,7 +316,7 @@ void end_impacts(Serial, Step step, const Events<TaskEnded>& ended, BodyRows& ro
             if (body < impacts.size()) impacts.clear_rows(body, 1);
             continue;
         }
-        if (!rows.metal_of(rows.tasks.source[task]).exists() || !(runs.energy[task] > 0)) continue;
+        if (!metal_of(rows, rows.tasks.source[task]).exists() || !(runs.energy[task] > 0)) continue;
         const Row<Bodies> body = rows.tasks.body[task], striker = runs.striker[task];
         if (rows.tasks.crack_count[task] > 0) {  // no shape before it that more of it could go on from
             if (body < impacts.size()) impacts.clear_rows(body, 1);
@@ -341,14 +341,14 @@ void end_impacts(Serial, Step step, const Events<TaskEnded>& ended, BodyRows& ro
     }
 }
 
-void group_dented(EachOwn<TaskEnded> ended, RunRows& rows) {
+void group_dented(EachOwn<TaskEnded> ended, MetalRows rows) {
     const Row<Tasks> task = ended->task;
     Tasks& tasks = rows.tasks;
     tasks.part_count[task] = 1;
     const auto state = static_cast<TaskState>(tasks.state[task]);
     if (state != TaskState::Reshaped && state != TaskState::Broke) return;
     const ShellView shell(rows, tasks.working[task]);
-    const std::span<FragmentPart> parts = rows.shell_parts.of_task(task);
+    const std::span<FragmentPart> parts = rows.shell_rows.shell_parts.of_task(task);
     if (state == TaskState::Reshaped) parts[0] = whole_part(shell);
     if (state == TaskState::Broke) tasks.part_count[task] = find_torn(shell, parts);
 }

@@ -91,7 +91,7 @@ float calibrated_strain_limit(const ShellRows& from, Row<Structures> source, con
         state.material_traits.append(from.material_traits.size());
         state.material_traits.copy_rows(from.material_traits, 0, 0, from.material_traits.size());
         const char* full = "";
-        const Row<Structures> shell = import_shell(state, from, source, &full);
+        const Row<Structures> shell = import_bare_shell(state, from, source, &full);
         if (!shell.exists()) return 0;
         QuickSettings unbroken = quick;
         unbroken.strain_limit = kMostLimit;  // not by the strength, which is what crushes, too

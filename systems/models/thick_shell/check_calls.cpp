@@ -9,7 +9,9 @@
 
 namespace cullet {
 
-Result<void> check_thick_shell(const ShellView& shell, Wear wear, const std::string& name, const char* advice) {
+Result<void> check_thick_shell(ShellRows& rows, Row<Structures> structure, Wear wear, const std::string& name,
+                               const char* advice) {
+    const ShellView shell(rows, structure);
     if (const Result<void> sound = check_shell_rows(shell, wear, name, advice); !sound) return sound;
     const Shells& s = shell.shells();
     const auto refuse = [&](const std::string& what) { return Error{name + ": " + what + ". " + advice}; };

@@ -5,7 +5,8 @@
 namespace cullet {
 
 /// The shell's rows; one that nothing has hit has its stiffness, and runs on it end.
-Result<void> check_thick_shell(const ShellView& shell, Wear wear, const std::string& name, const char* advice);
+Result<void> check_thick_shell(ShellRows& rows, Row<Structures> structure, Wear wear, const std::string& name,
+                               const char* advice);
 /// A hidden run has stiffness.
 std::string trouble_of_run(const RunRows& state, uint32_t task);
 /// Soft bodies, springs, quick runs and regions.

@@ -48,14 +48,14 @@ std::optional<FrameRun> soft_run(const SoftRows& rows, uint32_t s) {
 void register_loops(DamageModel& model) {
     model
         .loop<cost_of_hidden>("thick shell, brittle: 300 to 4,000 times a hit, on its own clock", make_brittle_loop(),
-                              {is_hidden, is_large})
+                              {call<is_hidden>, call<is_large>})
         .loop<cost_of_quick>("thick shell, quick: 8 to 100 times a hit", make_quick_loop(),
-                             {is_quick_task, has_large_region, true});
+                             {call<is_quick_task>, call<has_large_region>, true});
     model.moves_each_frame<most_soft_bodies, soft_units_wanted, grant_soft>("soft body")
         .frame_loop("thick shell, ductile and elastic: 8 to 1,000 times a frame",
-                    make_soft_loop(SpringLayout::OneLayer), {soft_count, soft_run<false>})
+                    make_soft_loop(SpringLayout::OneLayer), {call<soft_count>, call<soft_run<false>>})
         .frame_loop("the same, of bodies with an inner and an outer layer", make_soft_loop(SpringLayout::Sandwich),
-                    {soft_count, soft_run<true>});
+                    {call<soft_count>, call<soft_run<true>>});
 }
 
 }  // namespace cullet

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "components/blows.hpp"
+#include "components/shell_groups.hpp"
 #include "systems/structures/shell/cell_elements.hpp"
 #include "systems/structures/shell/prism.hpp"
 #include "systems/structures/shell/ring.hpp"
@@ -11,6 +12,8 @@
 
 namespace cullet {
 namespace {
+
+using SmoothedView = ShellIn<SmoothedTables>;
 
 /// Of its area that a face keeps at least, seen along its normal: no shift turns one over.
 constexpr float kLeastFace = 0.3f;
@@ -20,19 +23,19 @@ constexpr float kCreaseCosine = 0.95f;
 /// Of the mean edge: what moves less stays.
 constexpr float kLeastShift = 1e-3f;
 
-bool is_crack(const ShellView& shell, uint32_t e, uint32_t k) {
+bool is_crack(const SmoothedView& shell, uint32_t e, uint32_t k) {
     const Elements& elements = shell.state.elements;
     return elements.neighbour[shell.element(e)][k] == kNone &&
            elements.edge_kind[shell.element(e)][k] == static_cast<uint8_t>(EdgeKind::Crack);
 }
 
-Vec3 rest_of(const ShellView& shell, uint32_t v) {
+Vec3 rest_of(const SmoothedView& shell, uint32_t v) {
     return shell.state.vertices.rest[shell.vertex(v)];
 }
-Vec3 shift_of(const ShellView& shell, uint32_t v) {
+Vec3 shift_of(const SmoothedView& shell, uint32_t v) {
     return shell.state.vertices.crack_shift[shell.vertex(v)];
 }
-bool is_moved(const ShellView& shell, uint32_t v) {
+bool is_moved(const SmoothedView& shell, uint32_t v) {
     const Vec3 shift = shift_of(shell, v);
     return shift.x != 0 || shift.y != 0 || shift.z != 0;
 }
@@ -42,7 +45,7 @@ struct CrackNeighbours {
     Vec3 next, previous;
     bool exist = false;
 };
-CrackNeighbours crack_neighbours(const ShellView& shell, uint32_t v) {
+CrackNeighbours crack_neighbours(const SmoothedView& shell, uint32_t v) {
     Ring ring;
     walk_ring(shell, v, ring);
     if (ring.count == 0 || ring.is_closed) return {};
@@ -57,7 +60,7 @@ CrackNeighbours crack_neighbours(const ShellView& shell, uint32_t v) {
 }
 
 /// Area-weighted normal of the fans of both sides, the same for both, or zero at a crease: no shift follows both faces.
-Vec3 surface_normal(const ShellView& shell, uint32_t u, uint32_t w) {
+Vec3 surface_normal(const SmoothedView& shell, uint32_t u, uint32_t w) {
     Vec3 sum, normals[2 * kMostRing];
     uint32_t count = 0;
     Ring ring;
@@ -75,7 +78,7 @@ Vec3 surface_normal(const ShellView& shell, uint32_t u, uint32_t w) {
     return mean;
 }
 
-bool keeps_shape(const ShellView& shell, uint32_t v) {
+bool keeps_shape(const SmoothedView& shell, uint32_t v) {
     Ring ring;
     walk_ring(shell, v, ring);
     const auto is_kept = [](const std::array<Vec3, 3>& before, const std::array<Vec3, 3>& after) {
@@ -98,7 +101,7 @@ bool keeps_shape(const ShellView& shell, uint32_t v) {
 /// The pairs of vertices that are the two sides of one point of a crack, side by side; lives in scratch of the shell.
 class CrackPairs {
  public:
-    CrackPairs(const ShellView& shell, bool is_local)
+    CrackPairs(const SmoothedView& shell, bool is_local)
         : shell_(shell), list_(shell.state.vertices.copy.data() + shell.vertex(0)) {
         const auto add = [&](uint32_t e) {
             if (shell.state.elements.flags[shell.element(e)] & kDead) return;
@@ -178,7 +181,7 @@ class CrackPairs {
         for (const uint32_t v : {u, w}) shell_.state.vertices.crack_shift.set(shell_.vertex(v), shift);
     }
 
-    const ShellView& shell_;
+    const SmoothedView& shell_;
     uint32_t* list_;
     uint32_t count_ = 0;
 };
@@ -186,13 +189,12 @@ class CrackPairs {
 }  // namespace
 
 // What the game cut stays as straight, or as sharp, as it said.
-void smooth_cracks(EachOwn<TaskEnded> ended, RunRows& rows, const Blows& blows) {
+void smooth_cracks(EachOwn<TaskEnded> ended, SmoothedTables rows, const Tasks& tasks, const Blows& blows) {
     const Row<Tasks> task = ended->task;
-    if (static_cast<TaskState>(rows.tasks.state[task]) == TaskState::Dropped || rows.tasks.crack_count[task] == 0)
-        return;
+    if (static_cast<TaskState>(tasks.state[task]) == TaskState::Dropped || tasks.crack_count[task] == 0) return;
     if (is_cut_task(blows, task)) return;
-    const ShellView shell(rows, rows.tasks.working[task]);
-    CrackPairs pairs(shell, rows.tasks.working[task] == rows.tasks.source[task]);
+    const SmoothedView shell(rows, tasks.working[task]);
+    CrackPairs pairs(shell, tasks.working[task] == tasks.source[task]);
     pairs.shift();
     pairs.keep_faces();
     pairs.mark_cells();

@@ -8,12 +8,12 @@ namespace cullet {
 
 /// How many first elements stand in order of cells, the most there are. Looked for once a shell and then remembered:
 /// O(elements) the first time.
-uint32_t sorted_elements(ShellView shell);
+uint32_t sorted_elements(ShellIn<Tables<Shells, const Elements>> shell);
 
 /// Calls visit(element) for all elements, dead ones too, of the cells that is_wanted(cell) names: cell by cell, and
 /// behind them those that cracks added. Within a cell elements rise. O(elements of these cells + cells + added ones).
-template <class IsWanted, class Visit>
-void for_each_element_of_cells(const ShellView& shell, IsWanted&& is_wanted, Visit&& visit) {
+template <class View, class IsWanted, class Visit>
+void for_each_element_of_cells(const View& shell, IsWanted&& is_wanted, Visit&& visit) {
     const uint32_t sorted = sorted_elements(shell);
     const uint32_t* const cell = shell.state.elements.cell.data() + shell.elements().first;
     for (uint32_t c = 0; c < shell.cells().count; ++c) {

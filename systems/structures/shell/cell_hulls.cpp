@@ -121,9 +121,8 @@ float size_of(const ShellView& shell, std::span<const uint32_t> list) {
 
 /// The margin, and of sheet metal at least so much of its size: a margin is a half of a sheet, and crumpled sheets have
 /// bumps of that size everywhere. Four hulls of all their points each were most of a crash's worst frame.
-float grain_of(const ShellView& shell, float margin, std::span<const uint32_t> list) {
-    return shell.state.metal_of(shell.structure).exists() ? std::max(margin, kMetalGrain * size_of(shell, list))
-                                                          : margin;
+float grain_of(const ShellView& shell, Sheet sheet, float margin, std::span<const uint32_t> list) {
+    return sheet == Sheet::None ? margin : std::max(margin, kMetalGrain * size_of(shell, list));
 }
 
 void keep_extremes(const ShellView& shell, Workspace& work, float grain) {
@@ -132,7 +131,7 @@ void keep_extremes(const ShellView& shell, Workspace& work, float grain) {
 }
 
 /// A cell of more elements than a batch has: one hull.
-void choose_points_by_batches(const ShellView& shell, uint32_t first, float margin, Workspace& work) {
+void choose_points_by_batches(const ShellView& shell, Sheet sheet, uint32_t first, float margin, Workspace& work) {
     Workspace::Part& part = work.part[0];
     work.part_count = 1;
     part.count = 0;
@@ -142,7 +141,7 @@ void choose_points_by_batches(const ShellView& shell, uint32_t first, float marg
         std::copy_n(part.point, part.count, work.candidates);
         work.candidate_count = part.count;
         add_candidates(shell, {work.elements, count}, margin, work);
-        keep_extremes(shell, work, grain_of(shell, margin, {work.elements, count}));
+        keep_extremes(shell, work, grain_of(shell, sheet, margin, {work.elements, count}));
         part.count = work.chosen.count;
         for (uint32_t i = 0; i < part.count; ++i) part.point[i] = work.candidates[work.chosen.index[i]];
     }
@@ -160,7 +159,7 @@ void choose_part(const ShellView& shell, std::span<const uint32_t> list, float m
 
 /// How deep the hollow of a part is that its hull spans, as a share of its size. Of an open sheet both sides count, of
 /// others the outer one: nothing lies inside.
-float hollow_of(const ShellView& shell, std::span<const uint32_t> list) {
+float hollow_of(const ShellView& shell, Sheet sheet, std::span<const uint32_t> list) {
     Vec3 normal, low{1e30f, 1e30f, 1e30f}, high{-1e30f, -1e30f, -1e30f};
     for (const uint32_t e : list) {
         const auto p = outer_triangle(shell, e);
@@ -179,14 +178,13 @@ float hollow_of(const ShellView& shell, std::span<const uint32_t> list) {
             sum += at;
         }
     const float mean = sum / static_cast<float>(3 * list.size()), size = length(high - low);
-    const bool is_open = shell.state.metal_shells.crush_pressure[shell.state.metal_of(shell.structure)] == 0;
     // Most of a cup lies low, most of a hill high.
-    if (!(size > 0) || (!is_open && mean > 0.5f * (deepest + highest))) return 0;
+    if (!(size > 0) || (sheet == Sheet::Closed && mean > 0.5f * (deepest + highest))) return 0;
     return (highest - deepest) / size;
 }
 
-void halve_what_is_hollow(const ShellView& shell, std::span<uint32_t> elements, CellParts& parts) {
-    float hollow[kMostCellParts] = {hollow_of(shell, elements)};
+void halve_what_is_hollow(const ShellView& shell, Sheet sheet, std::span<uint32_t> elements, CellParts& parts) {
+    float hollow[kMostCellParts] = {hollow_of(shell, sheet, elements)};
     while (parts.count < kMostCellParts) {
         uint32_t worst = 0;
         for (uint32_t p = 1; p < parts.count; ++p)
@@ -196,22 +194,22 @@ void halve_what_is_hollow(const ShellView& shell, std::span<uint32_t> elements, 
         if (other == worst)
             hollow[worst] = 0;
         else
-            for (const uint32_t p : {worst, other}) hollow[p] = hollow_of(shell, parts.list(elements, p));
+            for (const uint32_t p : {worst, other}) hollow[p] = hollow_of(shell, sheet, parts.list(elements, p));
     }
 }
 
 /// Of the list of elements that begins with `first`; no points for an empty one.
-void choose_points(const ShellView& shell, uint32_t first, float margin, Workspace& work) {
+void choose_points(const ShellView& shell, Sheet sheet, uint32_t first, float margin, Workspace& work) {
     work.part_count = 0;
     uint32_t count = 0;
     uint32_t e = first;
     for (; e != kNone && count < kBatchElements; e = next_of(shell, e)) work.elements[count++] = e;
     if (count == 0) return;
-    if (e != kNone) return choose_points_by_batches(shell, first, margin, work);
+    if (e != kNone) return choose_points_by_batches(shell, sheet, first, margin, work);
     CellParts parts{.first = {0}, .size = {count}, .count = 1};
-    if (shell.state.metal_of(shell.structure).exists()) halve_what_is_hollow(shell, {work.elements, count}, parts);
+    if (sheet != Sheet::None) halve_what_is_hollow(shell, sheet, {work.elements, count}, parts);
     work.part_count = parts.count;
-    const float grain = grain_of(shell, margin, {work.elements, count});
+    const float grain = grain_of(shell, sheet, margin, {work.elements, count});
     for (uint32_t p = 0; p < parts.count; ++p)
         choose_part(shell, parts.list({work.elements, count}, p), margin, grain, work, work.part[p]);
     while (parts.count < kMostCellParts) {
@@ -347,13 +345,19 @@ void link_live(const ShellView& shell) {
 
 }  // namespace
 
+Sheet sheet_of(Tables<const Structures, const MetalOwners, const MetalShells> rows, Row<Structures> structure) {
+    const Row<MetalShells> metal = metal_of(rows, structure);
+    if (!metal.exists()) return Sheet::None;
+    return rows.metal_shells.crush_pressure[metal] == 0 ? Sheet::Open : Sheet::Closed;
+}
+
 float hull_margin(const ShellView& shell) {
     return shell.structures().margin[shell.structure];
 }
 
-void choose_hull(ShellView shell, uint32_t cell) {
+void choose_hull(ShellView shell, uint32_t cell, Sheet sheet) {
     const Scratch<Workspace> work(shell.state.scratch);
-    choose_points(shell, shell.state.cells.first_element[cell_row(shell, cell)], hull_margin(shell), *work);
+    choose_points(shell, sheet, shell.state.cells.first_element[cell_row(shell, cell)], hull_margin(shell), *work);
     write_points(shell, cell, *work);
 }
 
@@ -370,14 +374,14 @@ void pack_hulls(ShellView shell) {
     }
 }
 
-void build_hulls(ShellView shell) {
+void build_hulls(ShellView shell, Sheet sheet) {
     shell.structures().margin[shell.structure] = margin_for(shell.shells().thickness[shell.row]);
     clear_shape(shell);
     link_sorted(shell);
     PointRoom room(shell);
     for (uint32_t c = 0; c < shell.cells().count; ++c) {
         room.reserve(c);
-        choose_hull(shell, c);
+        choose_hull(shell, c, sheet);
     }
     pack_hulls(shell);
 }

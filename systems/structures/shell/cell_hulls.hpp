@@ -3,7 +3,7 @@
 #pragma once
 #include <algorithm>
 
-#include "components/shell_rows.hpp"
+#include "components/metal_rows.hpp"
 
 namespace cullet {
 
@@ -15,12 +15,17 @@ inline uint32_t most_points(uint32_t cells, uint32_t elements) {
     return std::min(cells * kMostCellPoints, 6 * elements);
 }
 
+/// Of sheet metal hollows are not filled by hulls: of an open sheet on both sides, of a closed body on the outer one,
+/// since nothing lies inside.
+enum class Sheet : uint8_t { None, Open, Closed };
+Sheet sheet_of(Tables<const Structures, const MetalOwners, const MetalShells> rows, Row<Structures> structure);
+
 /// Writes HullPoints, and the counts in Cells, for all cells, and the margin. Elements must stand sorted by cell
 /// (build_shell and make_piece leave them so) and the points' range have most_points rows. Points are outer and inner
 /// corners, pulled into the solid by the margin along the shell's normal (at most to the middle of the wall) and away
 /// from rims and cracks, so that neighbours along a crack start apart. A cell is one hull, and up to four where 32
 /// points leave out more than half a margin. A hull leaves out what lies less than 0.2 margins above it.
-void build_hulls(ShellView shell);
+void build_hulls(ShellView shell, Sheet sheet = Sheet::None);
 
 // The same in steps, for a body that broke: what moved as it was is copied, the other cells are chosen anew, all at
 // once if need be, and the points are moved together.
@@ -36,7 +41,7 @@ void copy_rest_hulls(ShellView shell, Range points, ShellView before, bool have_
 void empty_piece_cells(ShellView piece);
 void empty_rest_cells(ShellView shell);
 /// A cell that waits. It may have lost all of its elements.
-void choose_hull(ShellView shell, uint32_t cell);
+void choose_hull(ShellView shell, uint32_t cell, Sheet sheet = Sheet::None);
 /// When no cell waits any more.
 void pack_hulls(ShellView shell);
 

@@ -36,13 +36,13 @@ void follow_drawn(BodyRows& state, Row<Bodies> body, ShellView old, ShellView no
     remember_drawn(now, state.view_indices, drawn);
 }
 
-bool compact(BodyRows& state, Row<Bodies> body, std::span<FragmentPart> slot) {
+bool compact(BodyRows& state, MetalTables metal, Row<Bodies> body, std::span<FragmentPart> slot) {
     const Row<Structures> old = state.bodies.structure[body];
     if (group_fragments(ShellView(state, old), slot) != 1) return false;
-    const Row<Structures> compacted = compact_shell(state, old, slot[0]);
+    const Row<Structures> compacted = compact_shell({state, metal}, old, slot[0]);
     if (!compacted.exists()) return false;
     follow_drawn(state, body, ShellView(state, old), ShellView(state, compacted));
-    release_shell(state, old);
+    release_metal_shell({state, metal}, old);
     state.bodies.structure[body] = compacted;
     take_mass_properties(state.bodies, state.structures, body,
                          radius_of(ShellView(state, state.bodies.structure[body])));
@@ -53,7 +53,7 @@ bool compact(BodyRows& state, Row<Bodies> body, std::span<FragmentPart> slot) {
 
 // The drawn mesh and the hulls stay: nothing that the game or the rigid world sees changes, but the last bits of the
 // mass. The first body of a quiet frame is served even when it costs more than the budget, or it never would be.
-void compact_shells(Serial, BodyRows& rows, DamageCounts& counts, const Events<TaskEnded>& ended) {
+void compact_shells(Serial, BodyRows& rows, MetalTables metal, DamageCounts& counts, const Events<TaskEnded>& ended) {
     bool is_quiet = ended.size() == 0;
     for (uint32_t t = 0; t < rows.tasks.size() && is_quiet; ++t)
         is_quiet = static_cast<TaskState>(rows.tasks.state[t]) == TaskState::Free;
@@ -66,7 +66,7 @@ void compact_shells(Serial, BodyRows& rows, DamageCounts& counts, const Events<T
         const uint64_t live = rows.structures.live_elements[shell];
         const uint64_t cost = kUnitsCompact * live;
         if (!is_first && cost > counts.units_left) return;
-        if (!compact(rows, Row<Bodies>(b), slot)) continue;
+        if (!compact(rows, metal, Row<Bodies>(b), slot)) continue;
         is_first = false;
         counts.units_left -= std::min(cost, counts.units_left);
         counts.units_used += cost;

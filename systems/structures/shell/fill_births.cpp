@@ -14,9 +14,9 @@ void fill_rest(const ShellView& broken, const Break& of, const FragmentPart& par
     if (of.chooses_shape && part.has_pins) clear_shape(broken);
 }
 
-void fill_body(const ShellView& broken, const Break& of, const FragmentPart& part, Row<Structures> structure) {
-    const ShellView piece(broken.state, structure);
-    fill_piece(broken.state, of.broken, part, structure);
+void fill_body(MetalShellRows rows, const Break& of, const FragmentPart& part, Row<Structures> structure) {
+    const ShellView piece(rows, structure);
+    fill_piece(rows, of.broken, part, structure);
     if (!of.is_torn && !part.has_pins) choose_shape(piece, piece.points().first);
     if (part.has_pins) clear_shape(piece);
 }
@@ -32,12 +32,12 @@ double volume_of(const ShellView& shell, const FragmentPart& part) {
 }  // namespace
 
 // Parts share no element, vertex or hinge; cells, which they may share, were dealt with when the rows were taken.
-void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellRows& rows, Fragments& fragments,
+void fill_births(Each<Birth> birth, const Events<Break>& breaks, MetalShellRows rows, Fragments& fragments,
                  Touches& touches, const Bodies& bodies) {
     const Break& of = breaks.all()[birth->of];
     const Row<Fragments> f = birth->fragment;
     if (!f.exists()) {
-        settle_momenta(fragments, of.fragments, touches, of.start, rows.scratch);
+        settle_momenta(fragments, of.fragments, touches, of.start, rows.shell_rows.scratch);
         return;
     }
     if (!is_shell(rows.structures, of.broken)) return;
@@ -45,7 +45,7 @@ void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellRows& rows
     const FragmentPart part = part_of(fragments, f);
     if (f == of.largest) return fill_rest(broken, of, part);
     if (fragments.child[f].exists())
-        fill_body(broken, of, part, bodies.structure[fragments.child[f]]);
+        fill_body(rows, of, part, bodies.structure[fragments.child[f]]);
     else
         fragments.volume[f] = volume_of(broken, part);
     shed_part(broken, part);

@@ -14,13 +14,15 @@ void make_shape(const ShellRows& state, const RigidWorld& rigid, uint32_t shape,
 
 }  // namespace
 
-void fill_hulls(Each<HullWanted> wanted, ShellRows& rows, const RigidWorld& rigid) {
+void fill_hulls(Each<HullWanted> wanted, ShellRows& rows, Tables<const MetalOwners, const MetalShells> metal,
+                const RigidWorld& rigid) {
     const Row<Structures> shell = wanted->structure;
     uint32_t from = rows.structures.points[shell].first;
     if (wanted->cell == kNone)
         return make_shape(rows, rigid, kMostCellParts * rows.structures.made_shape[shell], from,
                           rows.structures.shape_points[shell]);
-    if (is_shell(rows.structures, shell)) choose_hull(ShellView(rows, shell), wanted->cell);
+    if (is_shell(rows.structures, shell))
+        choose_hull(ShellView(rows, shell), wanted->cell, sheet_of({rows, metal}, shell));
     const uint32_t cell = rows.structures.cells[shell].first + wanted->cell;
     from += rows.cells.first_point[cell];
     for (uint32_t part = 0; part < kMostCellParts; ++part) {

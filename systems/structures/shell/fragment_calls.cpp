@@ -72,7 +72,7 @@ void list_rest(RunRows& rows, const Break& of, Fragments& fragments) {
 
 // ---- their rows
 
-Row<Structures> reserve(RunRows& rows, const Break& of, const Fragments& fragments, Row<Fragments> fragment,
+Row<Structures> reserve(MetalShellRows rows, const Break& of, const Fragments& fragments, Row<Fragments> fragment,
                         uint8_t generation, const char** full) {
     return reserve_piece(rows, of.broken, part_of(fragments, fragment), generation, full);
 }
@@ -96,7 +96,7 @@ bool reserve_hulls(RunRows& rows, const Fragments& fragments, Break& plan) {
     plan.keeps_hulls = plan.broken == plan.before && !plan.is_torn && plan.had_cells && !plan.chooses_shape &&
                        has_room_to_renew(broken);
     return plan.keeps_hulls ||
-           take_points(rows, most_points(broken.cells().count, broken.element_count()), plan.points);
+           rows.hull_points.take(most_points(broken.cells().count, broken.element_count()), plan.points);
 }
 
 uint32_t piece_view_rows(RunRows& rows, const Break& of, Fragments& fragments, Row<Fragments> fragment) {
@@ -153,25 +153,25 @@ void take_waiting(RunRows& rows, const Break& of, Fragments& fragments) {
 }  // namespace
 
 void add_fragment_calls(StructureCalls& calls) {
-    calls.list_found = list_found;
-    calls.list_anew = list_anew;
-    calls.list_whole = list_whole;
-    calls.join = join;
-    calls.nearest = nearest;
-    calls.list_rest = list_rest;
-    calls.reserve_piece = reserve;
-    calls.reserve_hulls = reserve_hulls;
-    calls.piece_view_rows = piece_view_rows;
-    calls.rows_to_redraw = rows_to_redraw;
-    calls.sum_momenta = sum;
-    calls.weigh = weigh;
-    calls.find_touches = find_touches;
-    calls.forget_waiting = forget_waiting;
-    calls.keep_waiting = keep_waiting;
-    calls.subtract_body = subtract_body;
-    calls.take_waiting = take_waiting;
-    calls.waiting_energy = waiting_energy;
-    calls.limit_waiting = limit_waiting;
+    calls.list_found = call<list_found>;
+    calls.list_anew = call<list_anew>;
+    calls.list_whole = call<list_whole>;
+    calls.join = call<join>;
+    calls.nearest = call<nearest>;
+    calls.list_rest = call<list_rest>;
+    calls.reserve_piece = call<reserve>;
+    calls.reserve_hulls = call<reserve_hulls>;
+    calls.piece_view_rows = call<piece_view_rows>;
+    calls.rows_to_redraw = call<rows_to_redraw>;
+    calls.sum_momenta = call<sum>;
+    calls.weigh = call<weigh>;
+    calls.find_touches = call<find_touches>;
+    calls.forget_waiting = call<forget_waiting>;
+    calls.keep_waiting = call<keep_waiting>;
+    calls.subtract_body = call<subtract_body>;
+    calls.take_waiting = call<take_waiting>;
+    calls.waiting_energy = call<waiting_energy>;
+    calls.limit_waiting = call<limit_waiting>;
 }
 
 }  // namespace cullet

@@ -82,7 +82,7 @@ Vec3 turn_tensor(Vec3 t, Vec3 x, Vec3 y, Vec3 a, Vec3 b) {
 
 // Springs of an element whose corners changed in its plane; its stress follows into the new axes.
 void refresh_element(ShellView shell, uint32_t element, Vec3 axis_x, Vec3 axis_y, const CutRepair& repair) {
-    repair.element(shell, element);
+    repair.element(repair, shell, element);
     const uint32_t row = shell.element(element);
     const Vec3 a = shell.state.triangle_springs.axis_x[row], b = shell.state.triangle_springs.axis_y[row];
     Elements& elements = shell.state.elements;

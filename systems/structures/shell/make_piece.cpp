@@ -24,7 +24,6 @@ uint32_t cell_row(const ShellView& shell, uint32_t cell) {
 
 struct Counts {
     uint32_t vertices = 0, hinges = 0, cells = 0;
-    uint32_t metal_springs = 0;
 };
 
 // Marks the part's vertices and lists its elements by cell. A vertex's mark is any number but kNone.
@@ -38,17 +37,11 @@ Counts mark_part(const ShellView& shell, const FragmentPart& part) {
         cells.list_count[cell_row(shell, elements.cell[row])] = 0;
     });
     Counts counts;
-    const Row<MetalShells> metal = state.metal_of(shell.structure);
-    const uint32_t metal_vertex = metal.exists() ? state.metal_shells.vertices[metal].first : 0;
     for_each_element(shell, part, [&](uint32_t e) {
         const uint32_t row = shell.element(e), c = cell_row(shell, elements.cell[row]);
         for (int k = 0; k < 3; ++k) {
             uint32_t& mark = state.vertices.copy[shell.vertex(elements.corner[row][k])];
-            if (mark == kNone) {
-                mark = counts.vertices++;
-                if (metal.exists())
-                    counts.metal_springs += state.metal_vertices.spring_count[metal_vertex + elements.corner[row][k]];
-            }
+            if (mark == kNone) mark = counts.vertices++;
             const uint32_t n = elements.neighbour[row][k];
             if (n != kNone && n > e && elements.hinge[row][k] != kNone) ++counts.hinges;
         }
@@ -302,24 +295,42 @@ ShellRoom piece_room(ShellView broken, const FragmentPart& part) {
 
 namespace {
 
+/// Springs at the part's vertices, which are marked by their numbers in the order of their first elements.
+uint32_t metal_springs_of(MetalShellRows rows, const ShellView& shell, const FragmentPart& part) {
+    const uint32_t first = rows.metal_shells.vertices[metal_of(rows, shell.structure)].first;
+    const uint32_t* const mark = shell.state.vertices.copy.data() + shell.vertices().first;
+    uint32_t next = 0, count = 0;
+    for_each_element(shell, part, [&](uint32_t e) {
+        for (const uint32_t v : shell.state.elements.corner[shell.element(e)]) {
+            if (mark[v] != next) continue;
+            ++next;
+            count += rows.metal_vertices.spring_count[first + v];
+        }
+    });
+    return count;
+}
+
 /// Of metal: sub-shells as many as the broken shell has at most, which are few.
-MetalRoom metal_room(const ShellRows& state, Row<Structures> broken, const Counts& counts, const ShellRoom& shell) {
-    const MetalRoom whole = metal_room_of(state, broken);
+MetalRoom metal_room(MetalShellRows rows, const ShellView& broken, const FragmentPart& part, const ShellRoom& shell) {
+    const MetalRoom whole = metal_room_of(rows, broken.structure);
     const uint32_t cells = std::min(whole.cells, shell.elements);
-    return {shell.vertices, shell.elements, counts.metal_springs, cells, std::min(whole.borders, cells * cells)};
+    return {shell.vertices, shell.elements, metal_springs_of(rows, broken, part), cells,
+            std::min(whole.borders, cells * cells)};
 }
 
 /// A shell for the part, with rows of metal where it is of metal.
-Row<Structures> make_rows(ShellRows& state, Row<Structures> broken, const Counts& counts, const ShellRoom& room,
+Row<Structures> make_rows(MetalShellRows rows, const ShellView& broken, const FragmentPart& part, const ShellRoom& room,
                           const char** full) {
-    const Row<Structures> row = make_shell_unclear(state, room, full);
-    if (!row.exists() || reserve_metal(state, broken, row, metal_room(state, broken, counts, room), full)) return row;
-    release_shell(state, row);
+    const Row<Structures> row = make_shell_unclear(rows, room, full);
+    if (!row.exists() || !metal_of(rows, broken.structure).exists()) return row;
+    if (reserve_metal(rows, broken.structure, row, metal_room(rows, broken, part, room), full)) return row;
+    release_shell(rows, row);
     return {};
 }
 
 /// What follows the copied elements.
-void finish_piece(const ShellView& shell, const FragmentPart& part, const ShellView& piece, uint32_t vertex_count) {
+void finish_piece(MetalShellRows rows, const ShellView& shell, const FragmentPart& part, const ShellView& piece,
+                  uint32_t vertex_count) {
     renumber_elements(shell, part, piece);
     copy_hinges(shell, piece);
     clear_pack_ends(shell.state, piece.structure);
@@ -328,7 +339,7 @@ void finish_piece(const ShellView& shell, const FragmentPart& part, const ShellV
     sum_vertex_masses(piece);
     measure_shell(piece);
     piece.structures().margin[piece.structure] = margin_for(piece.shells().thickness[piece.row]);
-    fill_metal(shell.state, shell.structure, piece.structure, {part.first_element, vertex_count});
+    fill_metal(rows, shell.structure, piece.structure, {part.first_element, vertex_count});
 }
 
 void begin_piece(const ShellView& shell, const ShellView& piece, uint32_t vertex_count) {
@@ -339,12 +350,13 @@ void begin_piece(const ShellView& shell, const ShellView& piece, uint32_t vertex
 }  // namespace
 
 // Cells of the broken shell may be shared by parts: what they say of this one is written to the piece's own.
-Row<Structures> reserve_piece(ShellRows& state, Row<Structures> broken, const FragmentPart& part, uint8_t generation,
+Row<Structures> reserve_piece(MetalShellRows rows, Row<Structures> broken, const FragmentPart& part, uint8_t generation,
                               const char** full) {
+    ShellRows& state = rows;
     const ShellView shell(state, broken);
     Counts counts = mark_part(shell, part);
     counts.cells = merge_small_cells(shell, part, counts.cells);
-    const Row<Structures> row = make_rows(state, broken, counts, room_of(counts, part), full);
+    const Row<Structures> row = make_rows(rows, shell, part, room_of(counts, part), full);
     if (!row.exists()) return row;
     const ShellView piece(state, row);
     state.structures.generation[row] = generation;
@@ -360,32 +372,34 @@ Row<Structures> reserve_piece(ShellRows& state, Row<Structures> broken, const Fr
     return row;
 }
 
-void fill_piece(ShellRows& state, Row<Structures> broken, const FragmentPart& part, Row<Structures> row) {
+void fill_piece(MetalShellRows rows, Row<Structures> broken, const FragmentPart& part, Row<Structures> row) {
+    ShellRows& state = rows;
     const ShellView shell(state, broken), piece(state, row);
     const uint32_t vertex_count = piece.vertex_count();
     order_vertices(shell, part, piece, vertex_count);
     begin_piece(shell, piece, vertex_count);
     for (uint32_t c = 0; c < state.structures.cells[row].count; ++c)
         copy_cell(shell, piece, state.cells.first_element[cell_row(piece, c)], c);
-    finish_piece(shell, part, piece, vertex_count);
+    finish_piece(rows, shell, part, piece, vertex_count);
 }
 
-Row<Structures> make_piece(ShellRows& state, Row<Structures> broken, const FragmentPart& part, uint8_t generation,
+Row<Structures> make_piece(MetalShellRows rows, Row<Structures> broken, const FragmentPart& part, uint8_t generation,
                            const char** full) {
-    const Row<Structures> row = reserve_piece(state, broken, part, generation, full);
+    const Row<Structures> row = reserve_piece(rows, broken, part, generation, full);
     if (!row.exists()) return row;
-    fill_piece(state, broken, part, row);
-    build_hulls(ShellView(state, row));
+    fill_piece(rows, broken, part, row);
+    build_hulls(ShellView(rows, row), sheet_of(rows, row));
     return row;
 }
 
-Row<Structures> compact_shell(ShellRows& state, Row<Structures> old, const FragmentPart& whole, const char** full) {
+Row<Structures> compact_shell(MetalShellRows rows, Row<Structures> old, const FragmentPart& whole, const char** full) {
+    ShellRows& state = rows;
     const ShellView shell(state, old);
     const Counts counts = mark_part(shell, whole);
     ShellRoom room = room_of(counts, whole);
     room.cells = state.structures.cells[old].count;
     room.points = state.structures.points[old].count;
-    const Row<Structures> row = make_rows(state, old, counts, room, full);
+    const Row<Structures> row = make_rows(rows, shell, whole, room, full);
     if (!row.exists()) return row;
     const ShellView piece(state, row);
     state.structures.generation[row] = state.structures.generation[old];
@@ -393,7 +407,7 @@ Row<Structures> compact_shell(ShellRows& state, Row<Structures> old, const Fragm
     begin_piece(shell, piece, counts.vertices);
     for_each_cell(shell, whole,
                   [&](uint32_t cell, uint32_t c) { copy_cell(shell, piece, state.cells.first_element[c], cell); });
-    finish_piece(shell, whole, piece, counts.vertices);
+    finish_piece(rows, shell, whole, piece, counts.vertices);
     Range &cells = state.structures.cells[row], &points = state.structures.points[row];
     cells.count = room.cells;
     points.count = room.points;

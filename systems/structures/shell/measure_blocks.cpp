@@ -3,10 +3,10 @@
 
 namespace cullet {
 
-void measure_blocks(Each<ShellChanged> changed, const Bodies& bodies, ShellRows& rows) {
+void measure_blocks(Each<ShellChanged> changed, const Bodies& bodies, MeasuredBlocks rows) {
     if (static_cast<BodyKind>(bodies.kind[changed->body]) == BodyKind::Free) return;
     if (!is_shell(rows.structures, bodies.structure[changed->body])) return;
-    measure_outdated(ShellView(rows, bodies.structure[changed->body]));
+    measure_outdated(BlockView(rows, bodies.structure[changed->body]));
 }
 
 }  // namespace cullet

@@ -8,20 +8,20 @@ namespace {
 
 /// The rows of both, and which number a sub-shell of the broken shell has in the piece; kNone: it has nothing of it.
 struct Copying {
-    ShellRows& rows;
+    MetalShellRows rows;
     ShellView from, to;
     Row<MetalShells> source, own;
     std::array<uint16_t, kMostSubShells> number;
     uint32_t live;  // vertices of the piece, which stand in their old order
 
-    Copying(ShellRows& r, Row<Structures> broken, Row<Structures> piece, uint32_t count)
-        : rows(r), from(r, broken), to(r, piece), source(r.metal_of(broken)), own(r.metal_of(piece)), live(count) {
+    Copying(MetalShellRows r, Row<Structures> broken, Row<Structures> piece, uint32_t count)
+        : rows(r), from(r, broken), to(r, piece), source(metal_of(r, broken)), own(metal_of(r, piece)), live(count) {
         number.fill(kNoMover);
     }
     MetalShells& shells() const { return rows.metal_shells; }
     /// Which vertex of the piece this one of the broken shell is; kNone: another part's.
     uint32_t in_piece(uint32_t vertex) const {
-        const uint32_t* const was = rows.vertices.copy.data() + to.vertices().first;
+        const uint32_t* const was = rows.shell_rows.vertices.copy.data() + to.vertices().first;
         const uint32_t* const at = std::lower_bound(was, was + live, vertex);
         return at < was + live && *at == vertex ? static_cast<uint32_t>(at - was) : kNone;
     }
@@ -60,7 +60,7 @@ void copy_elements(Copying& c, uint32_t first_element) {
     for_each_element(c.from, first_element, [&](uint32_t e) {
         uint16_t& number = c.number[cell[given.first + e]];
         if (number == kNoMover) number = count++;
-        cell[own.first + c.rows.elements.copy[c.from.element(e)]] = number;
+        cell[own.first + c.rows.shell_rows.elements.copy[c.from.element(e)]] = number;
     });
     c.shells().cells[c.own].count = count;
 }
@@ -138,7 +138,7 @@ void copy_vertices(const Copying& c) {
             v.clear_rows(row, 1);
             continue;
         }
-        const uint32_t was = c.rows.vertices.copy[c.to.vertex(k)];
+        const uint32_t was = c.rows.shell_rows.vertices.copy[c.to.vertex(k)];
         v.copy_rows(v, given.first + was, row, 1);
         number_cells(c, row);
         copy_springs_of(c, given.first + was, row);
@@ -147,14 +147,14 @@ void copy_vertices(const Copying& c) {
 
 }  // namespace
 
-bool reserve_metal(ShellRows& rows, Row<Structures> broken, Row<Structures> piece, const MetalRoom& room,
+bool reserve_metal(MetalTables rows, Row<Structures> broken, Row<Structures> piece, const MetalRoom& room,
                    const char** full) {
-    if (!rows.metal_of(broken).exists()) return true;
+    if (!metal_of(rows, broken).exists()) return true;
     return make_metal(rows, piece, room, full).exists();
 }
 
-void fill_metal(ShellRows& rows, Row<Structures> broken, Row<Structures> piece, const MetalPart& part) {
-    if (!rows.metal_of(broken).exists() || !rows.metal_of(piece).exists()) return;
+void fill_metal(MetalShellRows rows, Row<Structures> broken, Row<Structures> piece, const MetalPart& part) {
+    if (!metal_of(rows, broken).exists() || !metal_of(rows, piece).exists()) return;
     Copying copying(rows, broken, piece, part.vertices);
     copy_elements(copying, part.first_element);
     copy_vertices(copying);

@@ -14,16 +14,19 @@ struct Prism {
 };
 
 /// Where the vertex's inner twin is, in double from the stored floats.
-inline Vec3d inner_twin(const ShellRows& state, uint32_t row) {
+template <class Rows>
+Vec3d inner_twin(const Rows& state, uint32_t row) {
     return Vec3d(state.vertices.rest[row]) +
            static_cast<double>(state.vertices.depth[row]) * Vec3d(state.vertices.inward[row]);
 }
 
 /// Where the point is drawn and collides, outside and inside: at rest, but on a smoothed crack.
-inline Vec3 smoothed_place(const ShellRows& state, uint32_t row) {
+template <class Rows>
+Vec3 smoothed_place(const Rows& state, uint32_t row) {
     return state.vertices.rest[row] + state.vertices.crack_shift[row];
 }
-inline Vec3d smoothed_twin(const ShellRows& state, uint32_t row) {
+template <class Rows>
+Vec3d smoothed_twin(const Rows& state, uint32_t row) {
     return inner_twin(state, row) + Vec3d(state.vertices.crack_shift[row]);
 }
 

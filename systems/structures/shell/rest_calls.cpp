@@ -17,14 +17,14 @@ namespace {
 
 // ---- its rows
 
-Row<Structures> import(RunRows& rows, const RunRows& from, Row<Structures> structure, const char** full) {
+Row<Structures> import(WorldRows& rows, const Workbench& from, Row<Structures> structure, const char** full) {
     const Row<Structures> copy = import_shell(rows, from, structure, full);
     if (copy.exists()) (void)sorted_elements(ShellView(rows, copy));  // its bodies' copies know, too
     return copy;
 }
 
-void release(RunRows& rows, Row<Structures> structure) {
-    release_shell(rows, structure);
+void release(WorldRows& rows, Row<Structures> structure) {
+    release_metal_shell(rows, structure);
 }
 
 float radius(RunRows& rows, Row<Structures> structure) {
@@ -99,7 +99,7 @@ void take_leave(BodyRows& rows, const Break& of, const Fragments& fragments, Row
 
 // The smaller sides have moved (design section 3): the rest keeps its rows, those of the pieces are dead. What rows the
 // body had before tell which hulls are as they were.
-void keep_rest(BodyRows& rows, const Break& of, const Fragments& fragments) {
+void keep_rest(WorldRows& rows, const Break& of, const Fragments& fragments) {
     const ShellView shell(rows, of.broken), before(rows, of.before);
     ShellSums left;
     for (const Row<Fragments> f : of.fragments)
@@ -109,7 +109,7 @@ void keep_rest(BodyRows& rows, const Break& of, const Fragments& fragments) {
     rows.structures.live_elements[shell.structure] -= of.left_elements;
     uint8_t& generation = rows.structures.generation[shell.structure];
     // A dent is no break, and metal with a hole in it is dented and torn as often as it is struck.
-    const bool is_broken = !of.is_reshaped && !rows.metal_of(shell.structure).exists();
+    const bool is_broken = !of.is_reshaped && !metal_of(rows, shell.structure).exists();
     if (is_broken && generation < kMostGenerations) ++generation;
     if (!of.is_torn) clear_run(shell, false, of.broken != of.before, of.is_refused);
     if (of.keeps_hulls) return renew_rest_hulls(shell);
@@ -120,7 +120,11 @@ void keep_rest(BodyRows& rows, const Break& of, const Fragments& fragments) {
     else
         copy_rest_hulls(shell, points, before, of.had_cells);
     rows.hull_points.pool.give_back(old_points.first, old_points.capacity);
-    adopt_shell(rows, of.body, shell.structure);
+    adopt_shell(rows, rows, of.body, shell.structure);
+}
+
+void adopt(WorldRows& rows, Row<Bodies> body, Row<Structures> structure) {
+    adopt_shell(rows, rows, body, structure);
 }
 
 void close_up_hulls(RunRows& rows, Row<Structures> structure, bool are_renewed) {
@@ -133,20 +137,20 @@ void close_up_hulls(RunRows& rows, Row<Structures> structure, bool are_renewed) 
 }  // namespace
 
 void add_rest_calls(StructureCalls& calls) {
-    calls.import = import;
-    calls.release = release;
-    calls.radius = radius;
-    calls.points_at_birth = points_at_birth;
-    calls.view_rows = view_rows;
-    calls.measure = measure;
-    calls.tell_cracks = tell_cracks;
-    calls.find_changes = find_changes;
-    calls.keep_hulls = take_hulls;
-    calls.clear_run = clear;
-    calls.stop = stop;
-    calls.adopt = adopt_shell;
-    calls.keep_rest = keep_rest;
-    calls.pack_hulls = close_up_hulls;
+    calls.import = call<import>;
+    calls.release = call<release>;
+    calls.radius = call<radius>;
+    calls.points_at_birth = call<points_at_birth>;
+    calls.view_rows = call<view_rows>;
+    calls.measure = call<measure>;
+    calls.tell_cracks = call<tell_cracks>;
+    calls.find_changes = call<find_changes>;
+    calls.keep_hulls = call<take_hulls>;
+    calls.clear_run = call<clear>;
+    calls.stop = call<stop>;
+    calls.adopt = adopt;
+    calls.keep_rest = call<keep_rest>;
+    calls.pack_hulls = call<close_up_hulls>;
 }
 
 }  // namespace cullet

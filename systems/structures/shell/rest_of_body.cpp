@@ -68,12 +68,12 @@ void measure_part(ShellView shell, const FragmentPart& part) {
     write_sums(shell, sums);
 }
 
-void adopt_shell(BodyRows& state, Row<Bodies> body, Row<Structures> shell) {
+void adopt_shell(BodyRows& state, MetalTables metal, Row<Bodies> body, Row<Structures> shell) {
     const Row<Structures> before = state.bodies.structure[body];
     if (before == shell) return;
     ++state.structures.users[shell];
     state.bodies.structure[body] = shell;
-    release_shell(state, before);
+    release_metal_shell({state, metal}, before);
     drop_stiffness(state, shell);
     const ShellView own(state, shell);
     if (own.vertex_count() > kWholeCopyVertices) keep_vertex_sums(own);
@@ -85,7 +85,7 @@ bool keep_hulls(ShellView shell, ShellView before) {
     const Range points = before.points(), cells = shell.cells();
     Range& own = shell.points();
     const Range old = own;
-    if (!take_points(state, points.count, own)) {
+    if (!state.hull_points.take(points.count, own)) {
         own = old;
         return false;
     }

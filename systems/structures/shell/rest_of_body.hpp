@@ -4,6 +4,7 @@
 #include <span>
 
 #include "components/body_rows.hpp"
+#include "components/metal_rows.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 
 namespace cullet {
@@ -26,7 +27,7 @@ void stop_blocks(ShellView shell);
 void measure_part(ShellView shell, const FragmentPart& part);
 
 /// The body's own shell is `shell` from here on, without the stiffness rows that only a task needs.
-void adopt_shell(BodyRows& state, Row<Bodies> body, Row<Structures> shell);
+void adopt_shell(BodyRows& state, MetalTables metal, Row<Bodies> body, Row<Structures> shell);
 
 /// Hull points of `before` for a shell with the same cells that only cracked: hulls stay as they are, and the cells
 /// that cracks touched (find_changed_cells) are chosen anew at the next break. False: no room.

@@ -6,11 +6,20 @@ namespace cullet {
 
 namespace {
 
+template <class View>
+uint8_t corner_in(const View& shell, uint32_t element, uint32_t vertex) {
+    const auto& corner = shell.state.elements.corner[shell.element(element)];
+    for (uint8_t k = 0; k < 3; ++k)
+        if (corner[k] == vertex) return k;
+    return 3;
+}
+
 /// Appends elements from `at` on, over the edge (corner + turn) % 3 of each, until a border, `end`, or one too many.
 /// Returns where it stopped.
-uint32_t walk(const ShellView& shell, uint32_t vertex, uint32_t at, uint32_t end, uint32_t turn, Ring& ring) {
+template <class View>
+uint32_t walk(const View& shell, uint32_t vertex, uint32_t at, uint32_t end, uint32_t turn, Ring& ring) {
     while (at != kNone) {
-        const uint8_t corner = corner_of(shell, at, vertex);
+        const uint8_t corner = corner_in(shell, at, vertex);
         CULLET_ASSERT(corner < 3, "vertex %u is no corner of element %u, reached over a neighbour link", vertex, at);
         ring.is_cut_short = ring.count == kMostRing || corner == 3;
         if (ring.is_cut_short) return kNone;
@@ -24,7 +33,8 @@ uint32_t walk(const ShellView& shell, uint32_t vertex, uint32_t at, uint32_t end
 
 /// All elements, from Vertices.element counter-clockwise to the border, then from it clockwise to the other. Returns
 /// how many the first part has; all of a closed ring.
-uint32_t gather(const ShellView& shell, uint32_t vertex, Ring& ring) {
+template <class View>
+uint32_t gather(const View& shell, uint32_t vertex, Ring& ring) {
     ring.count = 0;
     ring.is_closed = ring.is_cut_short = false;
     const uint32_t begin = shell.state.vertices.element[shell.vertex(vertex)];
@@ -42,16 +52,8 @@ void rotate(Ring& ring, uint32_t first) {
     std::rotate(ring.corner, ring.corner + first, ring.corner + ring.count);
 }
 
-}  // namespace
-
-uint8_t corner_of(const ShellView& shell, uint32_t element, uint32_t vertex) {
-    const auto& corner = shell.state.elements.corner[shell.element(element)];
-    for (uint8_t k = 0; k < 3; ++k)
-        if (corner[k] == vertex) return k;
-    return 3;
-}
-
-void walk_ring(const ShellView& shell, uint32_t vertex, Ring& ring) {
+template <class View>
+void walk_all(const View& shell, uint32_t vertex, Ring& ring) {
     const uint32_t forward = gather(shell, vertex, ring);
     if (ring.is_closed) {
         rotate(ring, static_cast<uint32_t>(std::min_element(ring.element, ring.element + ring.count) - ring.element));
@@ -60,6 +62,20 @@ void walk_ring(const ShellView& shell, uint32_t vertex, Ring& ring) {
         std::reverse(ring.corner + forward, ring.corner + ring.count);
         rotate(ring, forward);
     }
+}
+
+}  // namespace
+
+uint8_t corner_of(const ShellView& shell, uint32_t element, uint32_t vertex) {
+    return corner_in(shell, element, vertex);
+}
+
+void walk_ring(const ShellView& shell, uint32_t vertex, Ring& ring) {
+    walk_all(shell, vertex, ring);
+}
+
+void walk_ring(const RingView& shell, uint32_t vertex, Ring& ring) {
+    walk_all(shell, vertex, ring);
 }
 
 void collect_ring(const ShellView& shell, uint32_t vertex, Ring& ring) {

@@ -22,6 +22,9 @@ struct Ring {
 /// The fan of Vertices.element: every vertex has one (C3), so walking from any of its elements finds all. A dead vertex
 /// has none.
 void walk_ring(const ShellView& shell, uint32_t vertex, Ring& ring);
+/// With all that it looks at.
+using RingView = ShellIn<Tables<const Shells, const Vertices, const Elements>>;
+void walk_ring(const RingView& shell, uint32_t vertex, Ring& ring);
 /// The same elements in rising order: sums over them do not depend on where a walk began.
 void collect_ring(const ShellView& shell, uint32_t vertex, Ring& ring);
 

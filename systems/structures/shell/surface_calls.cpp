@@ -62,24 +62,24 @@ void empty(RunRows& rows, Row<Structures> structure) {
 }
 
 // What a shell's rows hold is its damage model's affair: DamageModels::check_shell.
-std::string no_trouble([[maybe_unused]] const RunRows& rows, [[maybe_unused]] Row<Structures> structure) {
+std::string no_trouble([[maybe_unused]] Read<StructuresOfAllKinds> rows, [[maybe_unused]] Row<Structures> structure) {
     return "";
 }
 
 }  // namespace
 
 void add_surface_calls(StructureCalls& calls) {
-    calls.patch_radius = radius_of_patch;
-    calls.struck_normal = normal_struck;
-    calls.nearest_point = nearest_point;
-    calls.measure_explosion = explosion_on;
-    calls.is_cut_by = is_cut_by;
+    calls.patch_radius = call<radius_of_patch>;
+    calls.struck_normal = call<normal_struck>;
+    calls.nearest_point = call<nearest_point>;
+    calls.measure_explosion = call<explosion_on>;
+    calls.is_cut_by = call<is_cut_by>;
     calls.bears_loads = true;
-    calls.draw = draw_body;
-    calls.remember_drawn = remember;
-    calls.drawn_parts = drawn_parts;
-    calls.empty = empty;
-    calls.trouble = no_trouble;
+    calls.draw = call<draw_body>;
+    calls.remember_drawn = call<remember>;
+    calls.drawn_parts = call<drawn_parts>;
+    calls.empty = call<empty>;
+    calls.trouble = call<no_trouble>;
 }
 
 }  // namespace cullet

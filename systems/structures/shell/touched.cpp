@@ -4,7 +4,8 @@
 
 namespace cullet {
 
-const CutRepair kNoRepair{[](ShellView, uint32_t) {}, [](ShellView, uint32_t) { return 0u; },
+const CutRepair kNoRepair{[]([[maybe_unused]] const CutRepair& repair, ShellView, uint32_t) {},
+                          [](ShellView, uint32_t) { return 0u; },
                           []([[maybe_unused]] const Structures& structures, Row<Structures>) { return true; },
                           [](ShellView, uint32_t, uint32_t, uint32_t) {}, [](ShellView) {}};
 

@@ -7,7 +7,9 @@ namespace cullet {
 
 /// Calls to the model whose springs hold the shell together, at once while it is being cut.
 struct CutRepair {
-    void (*element)(ShellView shell, uint32_t element);  // its corners are others, or elsewhere
+    /// `repair`: this one, which may know more.
+    void (*element)(const CutRepair& repair, ShellView shell,
+                    uint32_t element);                   // its corners are others, or elsewhere
     uint32_t (*hinge)(ShellView shell, uint32_t hinge);  // its vertices are written and new
     bool (*can_rename)(const Structures& structures,
                        Row<Structures> shell);  // `rename` does; else the row is made anew

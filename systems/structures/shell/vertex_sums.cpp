@@ -6,7 +6,7 @@
 namespace cullet {
 namespace {
 
-BlockSums state_of(const ShellView& shell, uint32_t block) {
+BlockSums state_of(const BlockView& shell, uint32_t block) {
     return static_cast<BlockSums>(shell.state.vertex_blocks.sums[block_row(shell, block)]);
 }
 
@@ -15,7 +15,7 @@ void add_box(VertexSums& sums, Vec3 low, Vec3 high) {
     sums.high = {std::max(sums.high.x, high.x), std::max(sums.high.y, high.y), std::max(sums.high.z, high.z)};
 }
 
-VertexSums measure(const ShellView& shell, uint32_t block) {
+VertexSums measure(const BlockView& shell, uint32_t block) {
     const Vertices& vertices = shell.state.vertices;
     const uint32_t first = shell.vertex(block * kVerticesPerBlock),
                    end = std::min(first + kVerticesPerBlock, shell.vertex(shell.vertex_count()));
@@ -81,7 +81,7 @@ void outdate_blocks(const ShellView& shell, const FragmentPart& part) {
         for (const uint32_t v : elements.corner[shell.element(e)]) outdate_block(shell, v);
 }
 
-bool keeps_vertex_sums(const ShellView& shell) {
+bool keeps_vertex_sums(const BlockView& shell) {
     return shell.vertex_count() > 0 && state_of(shell, 0) != BlockSums::NotKept;
 }
 
@@ -94,7 +94,7 @@ VertexSums block_sums(const ShellView& shell, uint32_t block) {
     return read(blocks, row);
 }
 
-void measure_outdated(const ShellView& shell) {
+void measure_outdated(const BlockView& shell) {
     if (!keeps_vertex_sums(shell)) return;
     for (uint32_t b = 0; b < block_count(shell); ++b)
         if (state_of(shell, b) == BlockSums::Outdated)

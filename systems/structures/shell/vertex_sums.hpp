@@ -4,9 +4,11 @@
 #include <algorithm>
 
 #include "components/bodies.hpp"
-#include "components/shell_rows.hpp"
+#include "components/shell_groups.hpp"
 
 namespace cullet {
+
+using BlockView = ShellIn<MeasuredBlocks>;
 
 /// Of live vertices, body frame. They add and subtract, but for the box.
 struct VertexSums {
@@ -23,17 +25,17 @@ struct VertexSums {
 /// calls outdate_block. For shells of large bodies that runs leave alone. Nothing is measured yet.
 void keep_vertex_sums(const ShellView& shell);
 /// Writes the sums of each block that is outdated, where they are kept: readers write nothing.
-void measure_outdated(const ShellView& shell);
+void measure_outdated(const BlockView& shell);
 void outdate_block(const ShellView& shell, uint32_t vertex);
 /// All that hold vertices of a listed part.
 void outdate_blocks(const ShellView& shell, const FragmentPart& part);
-bool keeps_vertex_sums(const ShellView& shell);
+bool keeps_vertex_sums(const BlockView& shell);
 
-inline uint32_t block_count(const ShellView& shell) {
+inline uint32_t block_count(const BlockView& shell) {
     return (shell.vertex_count() + kVerticesPerBlock - 1) / kVerticesPerBlock;
 }
 /// In VertexBlocks.
-inline uint32_t block_row(const ShellView& shell, uint32_t block) {
+inline uint32_t block_row(const BlockView& shell, uint32_t block) {
     return shell.vertex(0) / kVerticesPerBlock + block;
 }
 /// Of one block. One that is outdated is looked through, for this reader alone: the same bits either way.

@@ -19,7 +19,7 @@ bool are_all_below(const Range& range, const Column& column, uint32_t limit) {
     return true;
 }
 
-bool are_windings_sound(const SolidRows& rows, const Range& points, uint32_t windings) {
+bool are_windings_sound(Read<SolidRows> rows, const Range& points, uint32_t windings) {
     uint32_t next = 0;
     for (uint32_t r = points.first; r < points.first + points.count; ++r) {
         if (rows.lattice_nodes.first_winding[r] != next) return false;
@@ -30,7 +30,7 @@ bool are_windings_sound(const SolidRows& rows, const Range& points, uint32_t win
     return next == windings;
 }
 
-std::string trouble_of_cooked(const SolidRows& rows, Row<CookedSolids> row) {
+std::string trouble_of_cooked(Read<SolidRows> rows, Row<CookedSolids> row) {
     const CookedSolids& own = rows.cooked_solids;
     const Range points = own.lattice_points[row], tetrahedra = own.tetrahedra[row], coarse = own.coarse[row],
                 cells = own.cells[row], skin = own.points[row], triangles = own.triangles[row],
@@ -68,7 +68,7 @@ std::string trouble_of_cooked(const SolidRows& rows, Row<CookedSolids> row) {
     return are_windings_sound(rows, points, own.windings[row].count) ? "" : "has windings of other points";
 }
 
-std::string trouble_of_own(const SolidRows& rows, Row<Structures> structure) {
+std::string trouble_of_own(Read<SolidRows> rows, Row<Structures> structure) {
     const Row<Solids> row = solid_of(rows.structures, structure);
     const Solids& own = rows.solids;
     const Row<CookedSolids> cooked = own.cooked[row];
@@ -99,7 +99,7 @@ std::string trouble_of_own(const SolidRows& rows, Row<Structures> structure) {
 
 }  // namespace
 
-std::string trouble_of_solid(const RunRows& rows, Row<Structures> structure) {
+std::string trouble_of_solid(Read<SolidRows> rows, Row<Structures> structure) {
     const std::string cooked = trouble_of_cooked(rows, rows.solids.cooked[solid_of(rows.structures, structure)]);
     return cooked.empty() ? trouble_of_own(rows, structure) : cooked;
 }

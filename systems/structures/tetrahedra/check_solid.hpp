@@ -2,12 +2,12 @@
 #pragma once
 #include <string>
 
-#include "components/run_rows.hpp"
+#include "components/solid_rows.hpp"
 
 namespace cullet {
 
 /// Of ranges that have been looked at: what is wrong, or nothing. Every number that names a row is looked at, and sums
 /// that must fit each other; that a lattice covers its mesh is not.
-std::string trouble_of_solid(const RunRows& rows, Row<Structures> structure);
+std::string trouble_of_solid(Read<SolidRows> rows, Row<Structures> structure);
 
 }  // namespace cullet

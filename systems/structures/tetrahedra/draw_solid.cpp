@@ -28,7 +28,7 @@ struct Runs {
     }
 };
 
-void write_triangle(const SolidRows& rows, const SkinRange& skin, uint32_t t, ViewVertex* to) {
+void write_triangle(Read<SolidRows> rows, const SkinRange& skin, uint32_t t, ViewVertex* to) {
     const SkinTriangles& all = rows.skin_triangles;
     for (uint32_t k = 0; k < 3; ++k) {
         const Vec3d place = rows.skin_points.place[skin.points.first + all.corners[t][k]];
@@ -41,11 +41,11 @@ void write_triangle(const SolidRows& rows, const SkinRange& skin, uint32_t t, Vi
 
 }  // namespace
 
-uint32_t view_rows_of_solid(const SolidRows& rows, Row<Structures> structure) {
+uint32_t view_rows_of_solid(Read<SolidRows> rows, Row<Structures> structure) {
     return 3 * skin_of(rows, structure).triangles.count;
 }
 
-void draw_solid_body(BodyRows& rows, Row<Bodies> body) {
+void draw_solid_body(DrawnSolids rows, Row<Bodies> body) {
     Bodies& bodies = rows.bodies;
     const SkinRange skin = skin_of(rows, bodies.structure[body]);
     const SkinTriangles& all = rows.skin_triangles;

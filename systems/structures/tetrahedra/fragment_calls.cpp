@@ -12,18 +12,18 @@
 namespace cullet {
 namespace {
 
-BrokenSolid& broken_of(const RunRows& rows, Row<Tasks> task) {
+BrokenSolid& broken_of(RoomsOfTasks rows, Row<Tasks> task) {
     BreakingRoom* const room = room_of_task(rows, task);
     CULLET_ASSERT(room, "task %u has no room for what it broke", task.index);
     return room->broken;
 }
-const BrokenPiece& piece_of(const RunRows& rows, const Break& of, Row<Fragments> fragment) {
+const BrokenPiece& piece_of(RoomsOfTasks rows, const Break& of, Row<Fragments> fragment) {
     return broken_of(rows, of.task).pieces[fragment - of.fragments.first];
 }
 
 // ---- what hangs together
 
-Rows<Fragments> list_found(RunRows& rows, Row<Tasks> task, Fragments& fragments) {
+Rows<Fragments> list_found(WorldRows& rows, Row<Tasks> task, Fragments& fragments) {
     const BrokenSolid& broken = broken_of(rows, task);
     const Row<Structures> structure = rows.tasks.working[task];
     const double density = double{rows.materials.density[rows.structures.material[structure]]};
@@ -38,7 +38,7 @@ Rows<Fragments> list_found(RunRows& rows, Row<Tasks> task, Fragments& fragments)
     return made;
 }
 
-void join(RunRows& rows, const Break& of, Fragments& fragments, Row<Fragments> fragment) {
+void join(WorldRows& rows, const Break& of, Fragments& fragments, Row<Fragments> fragment) {
     broken_of(rows, of.task).pieces[fragment - of.fragments.first].one_with = of.largest - of.fragments.first;
     fragments.element_count[of.largest] += fragments.element_count[fragment];
     fragments.mass[of.largest] += fragments.mass[fragment];
@@ -49,7 +49,7 @@ void join(RunRows& rows, const Break& of, Fragments& fragments, Row<Fragments> f
 }
 
 // By the middles of cells.
-Row<Fragments> nearest(const RunRows& rows, const Break& of, Vec3 place) {
+Row<Fragments> nearest(const WorldRows& rows, const Break& of, Vec3 place) {
     const BrokenSolid& broken = broken_of(rows, of.task);
     const Range cells = rows.cooked_solids.cells[rows.solids.cooked[solid_of(rows.structures, of.broken)]];
     double least = 1e300;
@@ -64,20 +64,20 @@ Row<Fragments> nearest(const RunRows& rows, const Break& of, Vec3 place) {
 
 // ---- their rows
 
-Row<Structures> reserve_piece(RunRows& rows, const Break& of, [[maybe_unused]] const Fragments& fragments,
+Row<Structures> reserve_piece(WorldRows& rows, const Break& of, [[maybe_unused]] const Fragments& fragments,
                               Row<Fragments> fragment, uint8_t generation, const char** full) {
     const BrokenSolid& broken = broken_of(rows, of.task);
     const Row<CookedSolids> cooked = rows.solids.cooked[solid_of(rows.structures, of.broken)];
     const Row<Structures> piece =
         make_solid(rows, cooked, room_for_pieces(broken, {&piece_of(rows, of, fragment), 1}), full);
     if (!piece.exists()) return piece;
-    copy_structure(rows, of.broken, piece);
+    copy_structure(rows.structures, of.broken, piece);
     rows.structures.generation[piece] = generation;
     return piece;
 }
 
 // Rows for all pieces, since nobody knows yet which of them leave; the rest goes back when it is known.
-bool reserve_hulls(RunRows& rows, [[maybe_unused]] const Fragments& fragments, Break& plan) {
+bool reserve_hulls(WorldRows& rows, [[maybe_unused]] const Fragments& fragments, Break& plan) {
     const BrokenSolid& broken = broken_of(rows, plan.task);
     bool is_full = false;
     for_each_solid_range(rows, plan.broken, room_for_pieces(broken, broken.pieces),
@@ -88,7 +88,7 @@ bool reserve_hulls(RunRows& rows, [[maybe_unused]] const Fragments& fragments, B
     return !is_full;
 }
 
-uint32_t piece_view_rows(RunRows& rows, const Break& of, [[maybe_unused]] Fragments& fragments,
+uint32_t piece_view_rows(WorldRows& rows, const Break& of, [[maybe_unused]] Fragments& fragments,
                          Row<Fragments> fragment) {
     uint32_t triangles = 0;
     for (const BrokenPiece& piece : broken_of(rows, of.task).pieces)
@@ -104,7 +104,7 @@ uint32_t too_many(Asked...) {
 
 // ---- their motions
 
-void weigh(RunRows& rows, const Break& of, Fragments& fragments) {
+void weigh(WorldRows& rows, const Break& of, Fragments& fragments) {
     const BrokenSolid& broken = broken_of(rows, of.task);
     const double density = double{rows.materials.density[rows.structures.material[of.broken]]};
     for (const Row<Fragments> f : of.fragments) {
@@ -136,14 +136,14 @@ double speed_at(const Fragments& f, const Struck& at) {
 
 // The piece that is struck and the striker go on as one there; the others do not know of it, but for what crack faces
 // pass on when motions are settled. Contacts of one striker know of each other, and those of one piece.
-void strike(RunRows& rows, const Break& of, Fragments& f) {
+void strike(const WorldRows& all, Tables<const Tasks, TaskContacts> rows, const Break& of, Fragments& f) {
     constexpr int kRounds = 8;
     TaskContacts& contacts = rows.task_contacts;
     const uint32_t first = rows.tasks.first_contact[of.task], count = rows.tasks.contact_count[of.task];
     std::array<Struck, kMostContacts> struck;
     for (uint32_t i = 0; i < count; ++i) {
         Struck& at = struck[i];
-        at.fragment = nearest(rows, of, contacts.point[first + i]);
+        at.fragment = nearest(all, of, contacts.point[first + i]);
         at.normal = Vec3d(contacts.normal[first + i]);
         at.arm = Vec3d(contacts.point[first + i]) - f.centre[at.fragment];
         const Vec3d turn = cross(at.arm, at.normal);
@@ -173,7 +173,7 @@ void strike(RunRows& rows, const Break& of, Fragments& f) {
             double{contacts.start_speed[c]} - double{contacts.striker_inverse_mass[c]} * contacts.impulse[c];
 }
 
-void sum_momenta(RunRows& rows, const Break& of, Fragments& fragments,
+void sum_momenta(WorldRows& rows, const Break& of, Fragments& fragments,
                  [[maybe_unused]] const std::optional<RestMotion>& rest) {
     weigh(rows, of, fragments);
     for (const Row<Fragments> f : of.fragments) {
@@ -186,7 +186,7 @@ void sum_momenta(RunRows& rows, const Break& of, Fragments& fragments,
         fragments.momentum.set(f, Vec3d(fragments.momentum[f]) + piece.impulse);
         fragments.turning.set(f, Vec3d(fragments.turning[f]) + piece.turning);
     }
-    strike(rows, of, fragments);
+    strike(rows, rows, of, fragments);
     for (const Row<Fragments> f : of.fragments) {
         const Vec3d momentum = fragments.momentum[f], turning = fragments.turning[f];
         fragments.hidden_energy[f] =
@@ -194,7 +194,7 @@ void sum_momenta(RunRows& rows, const Break& of, Fragments& fragments,
     }
 }
 
-Rows<Touches> find_touches(RunRows& rows, const Break& of, bool, Touches& touches, [[maybe_unused]] Arena& arena) {
+Rows<Touches> find_touches(WorldRows& rows, const Break& of, bool, Touches& touches, [[maybe_unused]] Arena& arena) {
     const BrokenSolid& broken = broken_of(rows, of.task);
     const auto count = static_cast<uint32_t>(broken.touches.size());
     const uint32_t made = count > 0 ? touches.append(count) : kNone;
@@ -213,7 +213,7 @@ Rows<Touches> find_touches(RunRows& rows, const Break& of, bool, Touches& touche
 
 // ---- what stays
 
-void adopt(BodyRows& rows, Row<Bodies> body, Row<Structures> structure) {
+void adopt(WorldRows& rows, Row<Bodies> body, Row<Structures> structure) {
     const Row<Structures> before = rows.bodies.structure[body];
     if (before == structure) return;
     ++rows.structures.users[structure];
@@ -221,7 +221,7 @@ void adopt(BodyRows& rows, Row<Bodies> body, Row<Structures> structure) {
     release_solid(rows, before);
 }
 
-void keep_rest(BodyRows& rows, const Break& of, [[maybe_unused]] const Fragments& fragments) {
+void keep_rest(WorldRows& rows, const Break& of, [[maybe_unused]] const Fragments& fragments) {
     give_back_spare(rows, of.broken);
     uint8_t& generation = rows.structures.generation[of.broken];
     if (generation < kMostGenerations) ++generation;

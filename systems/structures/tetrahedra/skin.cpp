@@ -11,14 +11,20 @@
 
 namespace cullet {
 
-SkinRange skin_of(const SolidRows& rows, Row<Structures> structure) {
+namespace {
+
+constexpr uint32_t kMostPointsAtBirth = 1000;  // pieces are cut already: rows are copied, which is quick
+
+}  // namespace
+
+SkinRange skin_of(Read<SolidRows> rows, Row<Structures> structure) {
     const Row<Solids> solid = solid_of(rows.structures, structure);
     if (!rows.solids.is_whole[solid]) return {rows.solids.points[solid], rows.solids.triangles[solid]};
     const Row<CookedSolids> cooked = rows.solids.cooked[solid];
     return {rows.cooked_solids.points[cooked], rows.cooked_solids.triangles[cooked]};
 }
 
-void measure_solid(SolidRows& rows, Row<Structures> structure) {
+void measure_solid(SolidRows rows, Row<Structures> structure) {
     const SkinRange skin = skin_of(rows, structure);
     const auto place = [&](uint32_t p) -> Vec3d { return rows.skin_points.place[skin.points.first + p]; };
     // About a point of it: far from the origin the sums would lose digits.
@@ -50,7 +56,7 @@ void measure_solid(SolidRows& rows, Row<Structures> structure) {
     rows.solids.volume[solid_of(structures, structure)] = volume;
 }
 
-float radius_of_solid(const SolidRows& rows, Row<Structures> structure) {
+float radius_of_solid(Read<SolidRows> rows, Row<Structures> structure) {
     const SkinRange skin = skin_of(rows, structure);
     const Vec3d centre = rows.structures.centre[structure];
     double most = 0;
@@ -69,7 +75,13 @@ std::array<float, 2> inside_uv(Vec3d place, Vec3d normal, Vec3d low, Vec3d high)
     return {static_cast<float>(dot(from, along) + reach), static_cast<float>(dot(from, up) + reach)};
 }
 
-Result<void> check_skin(const SolidRows& rows, Row<Structures> structure) {
+uint32_t points_at_birth(Read<SolidRows> rows, Row<Structures> structure) {
+    // A working copy has no skin before its run is done.
+    const Row<CookedSolids> cooked = rows.solids.cooked[solid_of(rows.structures, structure)];
+    return std::min(kMostPointsAtBirth, rows.cooked_solids.points[cooked].count);
+}
+
+Result<void> check_skin(Read<SolidRows> rows, Row<Structures> structure) {
     const SkinRange skin = skin_of(rows, structure);
     std::map<std::array<uint32_t, 2>, int> balance;
     for (uint32_t t = skin.triangles.first; t < skin.triangles.first + skin.triangles.count; ++t) {

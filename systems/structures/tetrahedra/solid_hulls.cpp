@@ -8,7 +8,7 @@ namespace {
 constexpr float kMostPull = 0.5f;  // of the way to the hull's middle
 
 // Towards the middle: faces stand out by a little, since they are pulled by less than their corners.
-void write_points(StructureRows& rows, uint32_t first, std::span<const Vec3> points, float margin) {
+void write_points(ConvexCells rows, uint32_t first, std::span<const Vec3> points, float margin) {
     Vec3 middle;
     for (const Vec3 p : points) middle += p;
     middle = (1.0f / static_cast<float>(points.size())) * middle;
@@ -22,7 +22,7 @@ void write_points(StructureRows& rows, uint32_t first, std::span<const Vec3> poi
 
 }  // namespace
 
-void add_hulls(StructureRows& rows, Row<Structures> structure, std::span<const uint8_t> sizes,
+void add_hulls(ConvexCells rows, Row<Structures> structure, std::span<const uint8_t> sizes,
                std::span<const Vec3> corners) {
     Structures& structures = rows.structures;
     Range &cells = structures.cells[structure], &points = structures.points[structure];
@@ -44,7 +44,7 @@ void add_hulls(StructureRows& rows, Row<Structures> structure, std::span<const u
     structures.shape_points[structure] = 0;
 }
 
-void write_hulls(StructureRows& rows, Row<Structures> structure, std::span<const SolidHull> hulls, double thickness) {
+void write_hulls(ConvexCells rows, Row<Structures> structure, std::span<const SolidHull> hulls, double thickness) {
     rows.structures.margin[structure] = margin_for(thickness);
     rows.structures.cells[structure].count = rows.structures.points[structure].count = 0;
     for (const SolidHull& hull : hulls) {

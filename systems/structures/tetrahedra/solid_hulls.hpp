@@ -2,16 +2,16 @@
 #pragma once
 #include <span>
 
-#include "components/shell_rows.hpp"
+#include "components/solid_rows.hpp"
 #include "systems/structures/tetrahedra/cook/convex_pieces.hpp"
 
 namespace cullet {
 
 /// Fills cells and points of a structure that has room for them, and its margin: points are pulled in by it.
-void write_hulls(StructureRows& rows, Row<Structures> structure, std::span<const SolidHull> hulls, double thickness);
+void write_hulls(ConvexCells rows, Row<Structures> structure, std::span<const SolidHull> hulls, double thickness);
 
 /// More of them, behind what it has: how many corners each has, and the corners of all.
-void add_hulls(StructureRows& rows, Row<Structures> structure, std::span<const uint8_t> sizes,
+void add_hulls(ConvexCells rows, Row<Structures> structure, std::span<const uint8_t> sizes,
                std::span<const Vec3> corners);
 
 }  // namespace cullet

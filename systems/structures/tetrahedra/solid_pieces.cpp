@@ -11,7 +11,7 @@ uint32_t next_row(Range& range, [[maybe_unused]] const char* name) {
     return range.first + range.count++;
 }
 
-void add_skin(SolidRows& rows, const BrokenSolid& broken, const BrokenPiece& piece, Row<Solids> solid) {
+void add_skin(SolidRows rows, const BrokenSolid& broken, const BrokenPiece& piece, Row<Solids> solid) {
     Range &points = rows.solids.points[solid], &triangles = rows.solids.triangles[solid];
     const uint32_t before = points.count;
     for (const Vec3d& place : piece.points.of(broken.points)) {
@@ -44,8 +44,7 @@ SolidRoom room_for_pieces(const BrokenSolid& broken, std::span<const BrokenPiece
     return room;
 }
 
-void copy_structure(StructureRows& rows, Row<Structures> from, Row<Structures> to) {
-    Structures& s = rows.structures;
+void copy_structure(Structures& s, Row<Structures> from, Row<Structures> to) {
     const uint32_t own = s.rows[to], users = s.users[to];
     const Range cells = s.cells[to], points = s.points[to];
     s.copy_rows(s, from, to, 1);
@@ -53,7 +52,7 @@ void copy_structure(StructureRows& rows, Row<Structures> from, Row<Structures> t
     s.cells[to] = cells, s.points[to] = points;
 }
 
-void fill_solid(SolidRows& rows, const BrokenSolid& broken, uint32_t piece, Row<Structures> structure) {
+void fill_solid(SolidRows rows, const BrokenSolid& broken, uint32_t piece, Row<Structures> structure) {
     Structures& structures = rows.structures;
     const Row<Solids> solid = solid_of(structures, structure);
     for_each_solid_range(rows, structure, {}, [](Range& range, auto&, uint32_t, const char*) { range.count = 0; });
@@ -79,7 +78,7 @@ void fill_solid(SolidRows& rows, const BrokenSolid& broken, uint32_t piece, Row<
     measure_solid(rows, structure);
 }
 
-void give_back_spare(SolidRows& rows, Row<Structures> structure) {
+void give_back_spare(SolidRows rows, Row<Structures> structure) {
     for_each_solid_range(rows, structure, {}, [](Range& range, auto& table, uint32_t, const char*) {
         table.pool.give_back(range.first + range.count, range.capacity - range.count);
         range.capacity = range.count;

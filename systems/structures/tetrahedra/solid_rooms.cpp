@@ -10,9 +10,9 @@ namespace {
 
 constexpr double kFewTriangles = 4;  // that enclose anything
 
-bool is_open(const RunRows& rows, const BreakingRoom& room) {
-    return room.task.exists() && static_cast<TaskState>(rows.tasks.state[room.task]) != TaskState::Free &&
-           rows.tasks.working[room.task] == room.working;
+bool is_open(const Tasks& tasks, const BreakingRoom& room) {
+    return room.task.exists() && static_cast<TaskState>(tasks.state[room.task]) != TaskState::Free &&
+           tasks.working[room.task] == room.working;
 }
 
 /// Shares of the three corners at a place in the plane of a triangle.
@@ -45,7 +45,7 @@ BrokenTriangle flat_triangle(const PieceSkin& skin, const PieceTriangle& t, cons
 }
 
 /// With what its source has at the same places; a corner of the source keeps its very bits.
-BrokenTriangle triangle_of(const SolidRows& rows, uint32_t source, const ClosedMesh& mesh, uint32_t triangle,
+BrokenTriangle triangle_of(Read<SolidRows> rows, uint32_t source, const ClosedMesh& mesh, uint32_t triangle,
                            const PieceSkin& skin, const PieceTriangle& t) {
     const SkinTriangles& all = rows.skin_triangles;
     BrokenTriangle made{t.corners, {}, {}, all.drawn_material[source], all.is_inside[source]};
@@ -156,27 +156,28 @@ KnownSolid* SolidRooms::find(uint64_t content) const {
     return nullptr;
 }
 
-const KnownSolid* known_solid(const SolidRows& rows, Row<Structures> structure) {
-    if (!rows.solid_rooms) return nullptr;
-    return rows.solid_rooms->find(rows.cooked_solids.content[rows.solids.cooked[solid_of(rows.structures, structure)]]);
+const KnownSolid* known_solid(Read<SolidRows> rows, Row<Structures> structure) {
+    if (!rows.solid_work.rooms) return nullptr;
+    return rows.solid_work.rooms->find(
+        rows.cooked_solids.content[rows.solids.cooked[solid_of(rows.structures, structure)]]);
 }
 
-BreakingRoom* room_of_task(const RunRows& rows, Row<Tasks> task) {
-    if (!rows.solid_rooms) return nullptr;
-    for (BreakingRoom& room : rows.solid_rooms->rooms)
-        if (room.task == task && is_open(rows, room)) return &room;
+BreakingRoom* room_of_task(RoomsOfTasks rows, Row<Tasks> task) {
+    if (!rows.solid_work.rooms) return nullptr;
+    for (BreakingRoom& room : rows.solid_work.rooms->rooms)
+        if (room.task == task && is_open(rows.tasks, room)) return &room;
     return nullptr;
 }
 
-BreakingRoom* take_room(const RunRows& rows, Row<Tasks> task) {
-    if (!rows.solid_rooms) return nullptr;
+BreakingRoom* take_room(RoomsOfTasks rows, Row<Tasks> task) {
+    if (!rows.solid_work.rooms) return nullptr;
     BreakingRoom* free = nullptr;
-    for (BreakingRoom& room : rows.solid_rooms->rooms) {
+    for (BreakingRoom& room : rows.solid_work.rooms->rooms) {
         if (room.task == task) {  // of an earlier one of the same row
             free = &room;
             break;
         }
-        if (!free && !is_open(rows, room)) free = &room;
+        if (!free && !is_open(rows.tasks, room)) free = &room;
     }
     if (!free) return nullptr;
     free->task = task, free->working = rows.tasks.working[task];
@@ -184,7 +185,7 @@ BreakingRoom* take_room(const RunRows& rows, Row<Tasks> task) {
     return free;
 }
 
-uint32_t taken_rooms(const RunRows& rows) {
+uint32_t taken_rooms(Tables<const Structures, const Tasks> rows) {
     uint32_t count = 0;
     for (uint32_t t = 0; t < rows.tasks.size(); ++t) {
         const bool is_free = static_cast<TaskState>(rows.tasks.state[t]) == TaskState::Free;
@@ -193,7 +194,7 @@ uint32_t taken_rooms(const RunRows& rows) {
     return count;
 }
 
-void lay_piece(const SolidRows& rows, Row<CookedSolids> row, const CookedSolid& solid, const PieceSkin& skin,
+void lay_piece(Read<SolidRows> rows, Row<CookedSolids> row, const CookedSolid& solid, const PieceSkin& skin,
                std::span<const uint32_t> labels, uint32_t label, BrokenSolid& broken) {
     if (broken.piece_of.empty()) broken.piece_of.assign(labels.size(), kNone);
     BrokenPiece piece;

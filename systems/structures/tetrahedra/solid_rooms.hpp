@@ -5,7 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "components/run_rows.hpp"
+#include "components/solid_rows.hpp"
+#include "components/tasks.hpp"
 #include "systems/structures/tetrahedra/cook/convex_pieces.hpp"
 #include "systems/structures/tetrahedra/cook/cut_pieces.hpp"
 
@@ -86,17 +87,19 @@ struct SolidRooms {
 inline constexpr uint32_t kSolidRooms = 8;
 
 /// Of what a structure was cooked; null: nobody has asked for it yet.
-const KnownSolid* known_solid(const SolidRows& rows, Row<Structures> structure);
+const KnownSolid* known_solid(Read<SolidRows> rows, Row<Structures> structure);
+using RoomsOfTasks = Tables<const Tasks, SolidWork>;
+
 /// Null: the task has none.
-BreakingRoom* room_of_task(const RunRows& rows, Row<Tasks> task);
+BreakingRoom* room_of_task(RoomsOfTasks rows, Row<Tasks> task);
 /// One that no open task has, or null.
-BreakingRoom* take_room(const RunRows& rows, Row<Tasks> task);
+BreakingRoom* take_room(RoomsOfTasks rows, Row<Tasks> task);
 /// Tasks that have one.
-uint32_t taken_rooms(const RunRows& rows);
+uint32_t taken_rooms(Tables<const Structures, const Tasks> rows);
 
 /// Of one piece as it was cut, of the cells with this label: its surface with the artist's normals and uvs, and what it
 /// weighs. One that encloses nothing is left out.
-void lay_piece(const SolidRows& rows, Row<CookedSolids> row, const CookedSolid& solid, const PieceSkin& skin,
+void lay_piece(Read<SolidRows> rows, Row<CookedSolids> row, const CookedSolid& solid, const PieceSkin& skin,
                std::span<const uint32_t> labels, uint32_t label, BrokenSolid& broken);
 /// Who is beside whom, when all are laid.
 void lay_touches(const Solid& solid, BrokenSolid& broken);

@@ -29,7 +29,7 @@ CookedRoom room_for(const CookedSolid& cooked) {
     return room;
 }
 
-void write_lattice(SolidRows& rows, const CookedSolid& cooked, Row<CookedSolids> row) {
+void write_lattice(SolidRows rows, const CookedSolid& cooked, Row<CookedSolids> row) {
     const CoverLattice& lattice = cooked.solid.lattice;
     const CookedSolids& own = rows.cooked_solids;
     uint32_t r = own.lattice_points[row].first;
@@ -52,7 +52,7 @@ void write_lattice(SolidRows& rows, const CookedSolid& cooked, Row<CookedSolids>
     for (const TenNodes& nodes : lattice.coarse) rows.coarse_tetrahedra.nodes[r++] = nodes;
 }
 
-void write_cells(SolidRows& rows, const Solid& solid, Row<CookedSolids> row) {
+void write_cells(SolidRows rows, const Solid& solid, Row<CookedSolids> row) {
     const CookedSolids& own = rows.cooked_solids;
     uint32_t r = own.cells[row].first;
     for (const SolidCell& c : solid.cells) {
@@ -81,7 +81,7 @@ void write_cells(SolidRows& rows, const Solid& solid, Row<CookedSolids> row) {
     }
 }
 
-void write_skin(SolidRows& rows, const CookedSolid& cooked, const Mesh& mesh, Row<CookedSolids> row) {
+void write_skin(SolidRows rows, const CookedSolid& cooked, const Mesh& mesh, Row<CookedSolids> row) {
     const ClosedMesh& closed = cooked.mesh;
     const CookedSolids& own = rows.cooked_solids;
     uint32_t r = own.points[row].first;
@@ -148,7 +148,7 @@ void find_pairs(ClosedMesh& mesh) {
         }
 }
 
-void read_mesh(const SolidRows& rows, Row<CookedSolids> row, CookedSolid& cooked) {
+void read_mesh(Read<SolidRows> rows, Row<CookedSolids> row, CookedSolid& cooked) {
     const CookedSolids& own = rows.cooked_solids;
     ClosedMesh& mesh = cooked.mesh;
     const Range points = own.points[row], triangles = own.triangles[row];
@@ -173,7 +173,7 @@ void read_mesh(const SolidRows& rows, Row<CookedSolids> row, CookedSolid& cooked
 
 }  // namespace
 
-Row<Structures> write_solid(SolidRows& rows, const CookedSolid& cooked, const Mesh& mesh, const char** full) {
+Row<Structures> write_solid(SolidRows rows, const CookedSolid& cooked, const Mesh& mesh, const char** full) {
     const Row<CookedSolids> row = make_cooked(rows, room_for(cooked), full);
     if (!row.exists()) return {};
     const Row<Structures> structure = make_solid(rows, row, {}, full);
@@ -208,7 +208,7 @@ Row<Structures> write_solid(SolidRows& rows, const CookedSolid& cooked, const Me
     return structure;
 }
 
-CookedSolid read_solid(const SolidRows& rows, Row<CookedSolids> row) {
+CookedSolid read_solid(Read<SolidRows> rows, Row<CookedSolids> row) {
     const CookedSolids& own = rows.cooked_solids;
     CookedSolid cooked;
     Solid& solid = cooked.solid;

@@ -12,35 +12,27 @@
 namespace cullet {
 namespace {
 
-constexpr uint32_t kMostPointsAtBirth = 1000;  // pieces are cut already: rows are copied, which is quick
-
-Row<Structures> import(RunRows& rows, const RunRows& from, Row<Structures> structure, const char** full) {
+Row<Structures> import(WorldRows& rows, const Workbench& from, Row<Structures> structure, const char** full) {
     return import_solid(rows, from, structure, full);
 }
 
-void release(RunRows& rows, Row<Structures> structure) {
+void release(WorldRows& rows, Row<Structures> structure) {
     release_solid(rows, structure);
 }
 
-float radius(RunRows& rows, Row<Structures> structure) {
+float radius(WorldRows& rows, Row<Structures> structure) {
     return radius_of_solid(rows, structure);
 }
 
-uint32_t points_at_birth(const RunRows& rows, Row<Structures> structure) {
-    // A working copy has no skin before its run is done.
-    const Row<CookedSolids> cooked = rows.solids.cooked[solid_of(rows.structures, structure)];
-    return std::min(kMostPointsAtBirth, rows.cooked_solids.points[cooked].count);
-}
-
-uint32_t view_rows(RunRows& rows, Row<Structures> structure) {
+uint32_t view_rows(WorldRows& rows, Row<Structures> structure) {
     return view_rows_of_solid(rows, structure);
 }
 
-void measure(RunRows& rows, Row<Structures> structure) {
+void measure(WorldRows& rows, Row<Structures> structure) {
     measure_solid(rows, structure);
 }
 
-void empty(RunRows& rows, Row<Structures> structure) {
+void empty(WorldRows& rows, Row<Structures> structure) {
     for_each_solid_range(rows, structure, {}, [](Range& range, auto& table, uint32_t, const char*) {
         table.give_back(range);
         range = {};
@@ -65,11 +57,11 @@ const StructureCalls& tetrahedra_calls() {
         c.import = import;
         c.release = release;
         c.radius = radius;
-        c.points_at_birth = points_at_birth;
+        c.points_at_birth = call<points_at_birth>;
         c.view_rows = view_rows;
         c.measure = measure;
         c.empty = empty;
-        c.trouble = trouble_of_solid;
+        c.trouble = call<trouble_of_solid>;
         add_solid_surface_calls(c);
         add_solid_fragment_calls(c);
         return c;

@@ -13,11 +13,11 @@ namespace {
 constexpr double kPatchOfBall = 0.35;  // of a ball's radius, as on shells
 constexpr double kPatchOfCell = 1.2;   // of a cell's edge: a break knows no less
 
-Row<CookedSolids> cooked_of(const RunRows& rows, Row<Structures> structure) {
+Row<CookedSolids> cooked_of(Read<SolidRows> rows, Row<Structures> structure) {
     return rows.solids.cooked[solid_of(rows.structures, structure)];
 }
 
-float patch_radius(const RunRows& rows, Row<Structures> structure, float radius) {
+float patch_radius(Read<SolidRows> rows, Row<Structures> structure, float radius) {
     const double edge = rows.cooked_solids.edge[cooked_of(rows, structure)];
     return static_cast<float>(std::max(kPatchOfCell * edge, kPatchOfBall * double{radius}));
 }
@@ -42,7 +42,7 @@ struct SkinTriangle {
     std::array<Vec3d, 3> corners;
 };
 template <class Visit>
-void for_each_triangle(const SolidRows& rows, Row<Structures> structure, Visit&& visit) {
+void for_each_triangle(Read<SolidRows> rows, Row<Structures> structure, Visit&& visit) {
     const SkinRange skin = skin_of(rows, structure);
     for (uint32_t t = skin.triangles.first; t < skin.triangles.first + skin.triangles.count; ++t) {
         SkinTriangle triangle;
@@ -56,7 +56,7 @@ struct Nearest {
     Vec3d place, normal;
     double squared = 1e300;
 };
-Nearest nearest_place(const SolidRows& rows, Row<Structures> structure, Vec3 place) {
+Nearest nearest_place(Read<SolidRows> rows, Row<Structures> structure, Vec3 place) {
     Nearest found;
     for_each_triangle(rows, structure, [&](const SkinTriangle& t) {
         const Vec3d at = nearest_of(t.corners[0], t.corners[1], t.corners[2], Vec3d(place));
@@ -70,7 +70,7 @@ Nearest nearest_place(const SolidRows& rows, Row<Structures> structure, Vec3 pla
 }
 
 // Inward, of the triangle that the place is on, where it is on the contact's side.
-Vec3 struck_normal(RunRows& rows, Row<Structures> structure, Vec3 place, Vec3 normal, float) {
+Vec3 struck_normal(Read<SolidRows> rows, Row<Structures> structure, Vec3 place, Vec3 normal, float) {
     constexpr float kSameWay = 0.7f;  // cosine of 45 degrees
     const Vec3d outward = nearest_place(rows, structure, place).normal;
     const double size = length(outward);
@@ -79,13 +79,13 @@ Vec3 struck_normal(RunRows& rows, Row<Structures> structure, Vec3 place, Vec3 no
     return dot(inward, normal) > kSameWay ? inward : normal;
 }
 
-Vec3 nearest_point(RunRows& rows, Row<Structures> structure, Vec3 place) {
+Vec3 nearest_point(Read<SolidRows> rows, Row<Structures> structure, Vec3 place) {
     const Nearest found = nearest_place(rows, structure, place);
     return found.squared < 1e300 ? found.place.to_float() : place;
 }
 
 // What faces the centre is lit; what other parts of the body hide is not told apart.
-ExplosionSums measure(RunRows& rows, Row<Structures> structure, const Explosion& explosion, Vec3d about) {
+ExplosionSums measure(Read<SolidRows> rows, Row<Structures> structure, const Explosion& explosion, Vec3d about) {
     ExplosionSums sums;
     for_each_triangle(rows, structure, [&](const SkinTriangle& t) {
         const Vec3d middle = (1.0 / 3) * (t.corners[0] + t.corners[1] + t.corners[2]);
@@ -123,22 +123,22 @@ template <class... Asked>
 void nothing(Asked...) {}
 
 // Sources are numbers of triangles, which are divided by what a shell's element may have.
-uint32_t drawn_parts(const RunRows& rows, Row<Structures> structure) {
+uint32_t drawn_parts(Read<SolidRows> rows, Row<Structures> structure) {
     return skin_of(rows, structure).triangles.count;
 }
 
 }  // namespace
 
 void add_solid_surface_calls(StructureCalls& calls) {
-    calls.patch_radius = patch_radius;
-    calls.struck_normal = struck_normal;
-    calls.nearest_point = nearest_point;
-    calls.measure_explosion = measure;
+    calls.patch_radius = call<patch_radius>;
+    calls.struck_normal = call<struck_normal>;
+    calls.nearest_point = call<nearest_point>;
+    calls.measure_explosion = call<measure>;
     calls.is_cut_by = always;
     calls.bears_loads = true;
-    calls.draw = draw_solid_body;
+    calls.draw = call<draw_solid_body>;
     calls.remember_drawn = nothing;
-    calls.drawn_parts = drawn_parts;
+    calls.drawn_parts = call<drawn_parts>;
 }
 
 }  // namespace cullet

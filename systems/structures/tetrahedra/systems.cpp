@@ -5,7 +5,7 @@
 
 namespace cullet {
 
-void fill_solids(Each<Birth> birth, const Events<Break>& breaks, RunRows& rows, Fragments& fragments,
+void fill_solids(Each<Birth> birth, const Events<Break>& breaks, All<SolidRows, const Tasks> rows, Fragments& fragments,
                  const Bodies& bodies) {
     const Break& of = breaks.all()[birth->of];
     const Row<Fragments> f = birth->fragment;
@@ -20,7 +20,7 @@ void fill_solids(Each<Birth> birth, const Events<Break>& breaks, RunRows& rows, 
         fragments.volume[f] = room->broken.pieces[piece].volume;
 }
 
-void draw_solids(Each<ShellChanged> changed, Step step, BodyRows& rows) {
+void draw_solids(Each<ShellChanged> changed, Step step, DrawnSolids rows) {
     const Row<Bodies> body = changed->body;
     if (static_cast<BodyKind>(rows.bodies.kind[body]) == BodyKind::Free) return;
     if (is_shell(rows.structures, rows.bodies.structure[body])) return;

@@ -48,8 +48,9 @@ bool may_find_room(const BodyRows& rows, Row<Bodies> body) {
            uint64_t{rows.shells.hinges[rows.shell_of(own)].capacity} + room.hinges <= rows.hinges.limit();
 }
 
-Result<void> check_halves(const ShellView& shell, Wear wear, const std::string& name, const char* advice) {
-    return check_shell_rows(shell, wear, name, advice);
+Result<void> check_halves(ShellRows& rows, Row<Structures> structure, Wear wear, const std::string& name,
+                          const char* advice) {
+    return check_shell_rows(ShellView(rows, structure), wear, name, advice);
 }
 
 }  // namespace cullet::halves

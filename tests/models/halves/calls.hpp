@@ -10,6 +10,7 @@ WorkingCopy take_shell(BodyRows& rows, Row<Bodies> body);
 void begin_run(BodyRows& rows, Row<Tasks> task);
 ShellRoom room_of_hit(const BodyRows& rows, Row<Bodies> body);
 bool may_find_room(const BodyRows& rows, Row<Bodies> body);
-Result<void> check_halves(const ShellView& shell, Wear wear, const std::string& name, const char* advice);
+Result<void> check_halves(ShellRows& rows, Row<Structures> structure, Wear wear, const std::string& name,
+                          const char* advice);
 
 }  // namespace cullet::halves

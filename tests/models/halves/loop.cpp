@@ -12,7 +12,8 @@ InnerLoop<TaskWorld> make_loop() {
 }
 
 RunCost cost_of(const RunRows& rows, uint32_t task) {
-    return {rows.shells.vertices[rows.shell_of(rows.tasks.working[task])].count, units_of_birth(rows, task)};
+    const uint32_t vertices = rows.shells.vertices[rows.shell_of(rows.tasks.working[task])].count;
+    return {vertices, units_of_birth(rows.tasks, task, vertices)};
 }
 
 bool works_on(const RunRows&, uint32_t) {

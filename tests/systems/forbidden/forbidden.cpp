@@ -25,6 +25,21 @@ void helper(ShellRows& rows, const MaterialRows& materials, Nearby near) {
     narrow<Heard>(near);                        // forbidden: a narrower group writes to no more
 }
 
+void metal_helper(MetalRows rows, Read<SolidRows> solids) {
+    rows.metal_shells.mean_edge[0] = 1;
+    rows.quick_runs.append(1);                      // forbidden: metal reaches no runs of the thick shell
+    rows.cooked_solids.append(1);                   // forbidden: nor solids
+    solids.solids.append(1);                        // forbidden: a list that is read
+    Tables<Solids> more = solids;                   // forbidden: nor does it become one that is written
+    Tables<const Solids, const Cells> less = rows;  // forbidden: a list gives what it holds
+}
+void lattice_helper(LatticeRows rows) {
+    rows.lattice_results.pieces[0] = 1;
+    rows.vertices.append(1);   // forbidden: what breaks solids reaches no shell
+    rows.springs.append(1);    // forbidden: nor springs
+    MetalTables metal = rows;  // forbidden: nor metal
+}
+
 void falls(Rows<Debris>, InOut<&Debris::position> position, In<&Debris::mass> mass, Step step);
 void counts_all(Rows<Debris>, Debris& debris);
 void looks_around(Rows<Debris>, Out<&Debris::position> position, In<&Debris::position> others);

@@ -10,8 +10,7 @@ constexpr double kCrushOverPull = 10;  // brittle ones: of the tensile strength
 
 }  // namespace
 
-BrittleSolid brittle_of(const MaterialRows& rows, Row<Materials> material) {
-    const Materials& m = rows.materials;
+BrittleSolid brittle_of(const Materials& m, Row<Materials> material) {
     BrittleSolid brittle;
     brittle.elastic.young = double{m.young_modulus[material]};
     brittle.elastic.poisson = double{m.poisson_ratio[material]};

@@ -5,6 +5,6 @@
 
 namespace cullet {
 
-BrittleSolid brittle_of(const MaterialRows& rows, Row<Materials> material);
+BrittleSolid brittle_of(const Materials& m, Row<Materials> material);
 
 }  // namespace cullet

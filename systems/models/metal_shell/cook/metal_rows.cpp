@@ -219,7 +219,7 @@ float crush_pressure_of(const ShellView& shell, const Surface& surface, const Me
 
 }  // namespace
 
-Result<MetalReport> make_metal_rows(ShellRows& rows, Row<Structures> structure, const MetalCookSettings& settings) {
+Result<MetalReport> make_metal_rows(MetalShellRows rows, Row<Structures> structure, const MetalCookSettings& settings) {
     const ShellView shell(rows, structure);
     const Surface surface = surface_of(shell);
     const DualGraph graph = build_dual_graph(surface, settings.dual);
@@ -259,7 +259,7 @@ Result<MetalReport> make_metal_rows(ShellRows& rows, Row<Structures> structure, 
     if (area > 0) middle = (1 / area) * middle;
     const double width = std::max(kCreaseWidth * kExtent * radius, kLeastCreaseWidth * mean_edge);
     const MetalView metal(rows, structure);
-    const double thickness = double{rows.shells.thickness[shell.row]};
+    const double thickness = double{rows.shell_rows.shells.thickness[shell.row]};
     size_t b = 0;
     for (uint32_t c = 0; c < cells.count(); ++c) {
         SubShells& to = rows.sub_shells;
@@ -287,7 +287,7 @@ Result<MetalReport> make_metal_rows(ShellRows& rows, Row<Structures> structure, 
         MetalVertices& to = rows.metal_vertices;
         const uint32_t at = metal.vertex(v);
         to.clear_rows(at, 1);
-        to.original.set(at, rows.vertices.rest[shell.vertex(v)]);
+        to.original.set(at, rows.shell_rows.vertices.rest[shell.vertex(v)]);
         to.pin_distance[at] = 1e30f;
         blend(plates, width, surface.positions[v], to.cell[at], to.weight[at]);
         to.first_spring[at] = static_cast<uint32_t>(s);
@@ -306,7 +306,7 @@ Result<MetalReport> make_metal_rows(ShellRows& rows, Row<Structures> structure, 
                        cells.sums.back(), cells.radius};
 }
 
-void measure_pins(ShellRows& rows, Row<Structures> structure) {
+void measure_pins(MetalShellRows rows, Row<Structures> structure) {
     const MetalView metal(rows, structure);
     std::vector<Vec3> pins;
     for (uint32_t v = 0; v < metal.vertex_count(); ++v)

@@ -1,6 +1,6 @@
 // The rows that a cooked shell has as metal.
 #pragma once
-#include "components/shell_rows.hpp"
+#include "components/metal_rows.hpp"
 #include "cullet/result.hpp"
 #include "systems/models/metal_shell/cook/sub_shells.hpp"
 
@@ -23,9 +23,9 @@ struct MetalReport {
 };
 
 /// Sub-shells, springs, ties and weights of a shell that has none. An error names the limit that is full.
-Result<MetalReport> make_metal_rows(ShellRows& rows, Row<Structures> shell, const MetalCookSettings& settings);
+Result<MetalReport> make_metal_rows(MetalShellRows rows, Row<Structures> shell, const MetalCookSettings& settings);
 
 /// Fills MetalVertices.pin_distance from the shell's pinned vertices.
-void measure_pins(ShellRows& rows, Row<Structures> shell);
+void measure_pins(MetalShellRows rows, Row<Structures> shell);
 
 }  // namespace cullet

@@ -91,7 +91,7 @@ bool mends(const MetalView& metal) {
 
 // J of the blow that a sheet which is about to tear does not take.
 double left_at_tear(const MetalView& metal, const Striker& striker, const SheetPlace& place, double energy) {
-    SheetMetal sheet = sheet_metal(metal.shell);
+    SheetMetal sheet = sheet_metal(metal);
     const double own = double{metal.shells().tear_strain[metal.row]};
     sheet.break_strain = own > 0 ? own : kTears * sheet.break_strain;
     return plan_sheet(sheet, {striker.radius, place.support, energy, place.dent_depth}).left;
@@ -113,7 +113,7 @@ Dent dent_sheet(const MetalView& metal, const Striker& striker, const SheetPlace
     }
     carry_creases(metal, plan.contact, false);
     if (!is_published(metal, kPublishedShape)) clear_striker(metal, striker, dent.depth);
-    const double most_stretch = sheet_metal(metal.shell).break_strain;
+    const double most_stretch = sheet_metal(metal).break_strain;
     limit_stretch(metal, most_stretch, striker, dent.depth);
     if (mends(metal)) mend_edges(metal, most_stretch, striker, dent.depth);
     return dent;
@@ -132,7 +132,7 @@ Dent crush_body(const MetalView& metal, const Striker& striker, double energy) {
     }
     carry_creases(metal, plan.depth, true);
     if (!is_published(metal, kPublishedShape)) clear_striker(metal, striker, plan.depth);
-    const double most_stretch = sheet_metal(metal.shell).break_strain;
+    const double most_stretch = sheet_metal(metal).break_strain;
     limit_stretch(metal, most_stretch, striker, plan.depth);
     if (!is_published(metal, kPublishedSprings)) turn_back(metal);
     if (!is_published(metal, kPublishedShape)) clear_striker(metal, striker, plan.depth);
@@ -153,7 +153,8 @@ void keep_before(const MetalView& metal, Vec3d push, double far_end) {
 
 }  // namespace
 
-SheetMetal sheet_metal(const ShellView& shell) {
+SheetMetal sheet_metal(const MetalView& view) {
+    const ShellView& shell = view.shell;
     const MaterialRows& of = shell.state;
     const Row<Materials> material = shell.structures().material[shell.structure];
     SheetMetal metal;
@@ -163,8 +164,7 @@ SheetMetal sheet_metal(const ShellView& shell) {
         metal.break_strain = double{of.material_traits.break_strain[material]};
     }
     // What is to tear before the material breaks is not stretched farther either.
-    const Row<MetalShells> own = shell.state.metal_of(shell.structure);
-    if (const double tears = own.exists() ? double{shell.state.metal_shells.tear_strain[own]} : 0; tears > 0)
+    if (const double tears = view.row.exists() ? double{view.shells().tear_strain[view.row]} : 0; tears > 0)
         metal.break_strain = std::min(metal.break_strain, tears);
     metal.yield_stress = double{of.materials.young_modulus[material]} * metal.yield_strain;
     return metal;
@@ -176,7 +176,7 @@ bool is_elastic(const MetalView& metal, const Striker& striker, double energy) {
         metal.vertices().start.set(metal.vertex(v), metal.shell.state.vertices.rest[metal.shell.vertex(v)]);
     const Striker ball = along_dent(metal, round_striker(metal, striker));
     const SheetPlace place = find_sheet_place(metal, ball);
-    return !plan_sheet(sheet_metal(metal.shell), {ball.radius, place.support, energy, place.dent_depth}).is_dent();
+    return !plan_sheet(sheet_metal(metal), {ball.radius, place.support, energy, place.dent_depth}).is_dent();
 }
 
 Dent work_dent(const MetalView& metal, const Striker& striker, double energy, bool goes_on) {
@@ -186,7 +186,7 @@ Dent work_dent(const MetalView& metal, const Striker& striker, double energy, bo
         return crush_body(metal, striker, energy);
     const Striker ball = along_dent(metal, round_striker(metal, striker));
     const SheetPlace place = find_sheet_place(metal, ball);
-    const SheetPlan plan = plan_sheet(sheet_metal(metal.shell), {ball.radius, place.support, energy, place.dent_depth});
+    const SheetPlan plan = plan_sheet(sheet_metal(metal), {ball.radius, place.support, energy, place.dent_depth});
     if (!plan.is_dent()) {
         Dent none;
         none.restitution = kMostBounce;
@@ -215,7 +215,7 @@ Dent press_dent(const MetalView& metal, const Striker& striker, double depth, do
     place_field(metal, striker.push);
     carry_creases(metal, depth, is_closed);
     clear_striker(metal, striker, depth);
-    limit_stretch(metal, sheet_metal(metal.shell).break_strain, striker, depth);
+    limit_stretch(metal, sheet_metal(metal).break_strain, striker, depth);
     if (!is_published(metal, kPublishedSprings)) turn_back(metal);
     clear_striker(metal, striker, depth);
     keep_before(metal, striker.push, far_end);

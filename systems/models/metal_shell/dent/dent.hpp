@@ -26,7 +26,7 @@ struct Dent {
 };
 
 /// Of the shell's material and mean thickness.
-SheetMetal sheet_metal(const ShellView& shell);
+SheetMetal sheet_metal(const MetalView& metal);
 
 /// What a sheet gives back, at most: of a blow that leaves no dent.
 inline constexpr double kMostBounce = 0.83666;  // sqrt(0.7)

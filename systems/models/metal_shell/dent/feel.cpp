@@ -18,7 +18,7 @@ double energy_of(const Bodies& bodies, const Knock& knock) {
     return inverse_mass > 0 ? 0.5 * knock.speed * knock.speed / inverse_mass : 0;
 }
 
-void remember(BodyRows& rows, const Knock& knock, double energy, const Earlier& earlier) {
+void remember(MetalRows rows, const Knock& knock, double energy, const Earlier& earlier) {
     MetalImpacts& impacts = rows.metal_impacts;
     impacts.reach(knock.body + 1);
     const Row<Bodies> b = knock.body;
@@ -56,22 +56,22 @@ Earlier earlier_of(const MetalImpacts& impacts, const Knock& knock) {
     return found;
 }
 
-float least_contact(const ShellRows& rows, Row<Structures> structure, bool is_round) {
-    return is_round ? 0 : kFlatContact * rows.metal_shells.half_diagonal[rows.metal_of(structure)];
+float least_contact(MetalSizes rows, Row<Structures> structure, bool is_round) {
+    return is_round ? 0 : kFlatContact * rows.metal_shells.half_diagonal[metal_of(rows, structure)];
 }
 
-double least_energy(const ShellView& shell) {
-    const SheetMetal metal = sheet_metal(shell);
+double least_energy(const MetalView& view) {
+    const SheetMetal metal = sheet_metal(view);
     return std::numbers::pi * metal.yield_stress * metal.thickness * metal.thickness * kLeastFold * metal.thickness;
 }
 
-bool leaves_nothing(BodyRows& rows, const Knock& knock, float& bounce) {
+bool leaves_nothing(MetalRows rows, const Knock& knock, float& bounce) {
     const Row<Structures> structure = rows.bodies.structure[knock.body];
-    if (!rows.metal_of(structure).exists()) return false;
+    if (!metal_of(rows, structure).exists()) return false;
     const MetalView metal(rows, structure);
     const Earlier earlier = earlier_of(rows.metal_impacts, knock);
     const double energy = energy_of(rows.bodies, knock) + earlier.energy;
-    const bool is_weak = !(energy > least_energy(metal.shell));
+    const bool is_weak = !(energy > least_energy(metal));
     bounce = 0;
     if (!is_weak) {
         Striker striker;

@@ -1,12 +1,13 @@
 // What of a blow is more than a bump: before a task is opened for it.
 #pragma once
 #include "systems/model_calls.hpp"
+#include "systems/models/metal_shell/shared/metal_view.hpp"
 
 namespace cullet::metal_shell {
 
 /// The blow dents nothing for good: it is too weak for the sheet to yield. `bounce`: what a sheet gives back of it. It
 /// is remembered where it is sure: others like it may follow, and dent together.
-bool leaves_nothing(BodyRows& rows, const Knock& knock, float& bounce);
+bool leaves_nothing(MetalRows rows, const Knock& knock, float& bounce);
 
 /// In which what comes at the same place is more of an impact, s, at least: some frames.
 inline constexpr float kLeastSeconds = 0.06f;
@@ -19,8 +20,8 @@ struct Earlier {
 };
 Earlier earlier_of(const MetalImpacts& impacts, const Knock& knock);
 /// How far from each other touches of one impact may be, m, at least: what is flat touches here and there.
-float least_contact(const ShellRows& rows, Row<Structures> structure, bool is_round);
+float least_contact(MetalSizes rows, Row<Structures> structure, bool is_round);
 /// What yields under a blow, J, at least: a fold as deep as a tenth of the sheet's thickness.
-double least_energy(const ShellView& shell);
+double least_energy(const MetalView& metal);
 
 }  // namespace cullet::metal_shell

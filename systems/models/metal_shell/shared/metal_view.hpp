@@ -1,19 +1,20 @@
 // A shell that is of metal, with its rows looked up.
 #pragma once
-#include "components/shell_rows.hpp"
+#include "components/metal_rows.hpp"
 
 namespace cullet {
 
 struct MetalView {
     ShellView shell;
+    MetalTables metal;
     Row<MetalShells> row;
 
-    MetalView(ShellRows& rows, Row<Structures> of) : shell(rows, of), row(rows.metal_of(of)) {}
-    MetalShells& shells() const { return shell.state.metal_shells; }
-    MetalVertices& vertices() const { return shell.state.metal_vertices; }
-    SubShells& cells() const { return shell.state.sub_shells; }
-    MetalSprings& springs() const { return shell.state.metal_springs; }
-    SubShellBorders& borders() const { return shell.state.sub_shell_borders; }
+    MetalView(MetalShellRows rows, Row<Structures> of) : shell(rows, of), metal(rows), row(metal_of(rows, of)) {}
+    MetalShells& shells() const { return metal.metal_shells; }
+    MetalVertices& vertices() const { return metal.metal_vertices; }
+    SubShells& cells() const { return metal.sub_shells; }
+    MetalSprings& springs() const { return metal.metal_springs; }
+    SubShellBorders& borders() const { return metal.sub_shell_borders; }
     uint32_t vertex_count() const { return shells().vertices[row].count; }
     uint32_t element_count() const { return shells().elements[row].count; }
     uint32_t cell_count() const { return shells().cells[row].count; }
@@ -21,7 +22,7 @@ struct MetalView {
     uint32_t vertex(uint32_t v) const { return shells().vertices[row].first + v; }
     uint32_t cell(uint32_t c) const { return shells().cells[row].first + c; }
     uint32_t cell_of(uint32_t element) const {
-        return shell.state.metal_elements.cell[shells().elements[row].first + element];
+        return metal.metal_elements.cell[shells().elements[row].first + element];
     }
     bool is_pinned(uint32_t v) const { return shell.state.vertices.is_pinned[shell.vertex(v)] != 0; }
     const std::array<uint32_t, 3>& corners(uint32_t element) const {

@@ -55,7 +55,7 @@ Aim seen_from(const Aim& aim, const Pose& struck, const Pose& frame) {
 /// Calls f(where its corners are for the aim) for each triangle of the striker. Each is looked at where it stands, so
 /// that none is turned into another frame. Of sheet metal the outer side will do.
 template <class F>
-void for_each_triangle(const BodyRows& rows, const QueryIndex& index, Row<Bodies> striker, const Pose& struck,
+void for_each_triangle(Read<MetalRows> rows, const QueryIndex& index, Row<Bodies> striker, const Pose& struck,
                        const Aim& aim, F&& f) {
     const Bodies& bodies = rows.bodies;
     if (const StaticTriangles* triangles = index.triangles(striker)) {
@@ -68,7 +68,7 @@ void for_each_triangle(const BodyRows& rows, const QueryIndex& index, Row<Bodies
     if (const Row<Structures> structure = bodies.structure[striker]; structure.exists()) {
         const Range &vertices = bodies.view_vertices[striker], &indices = bodies.view_indices[striker];
         uint32_t count = indices.count;
-        if (rows.metal_of(structure).exists()) {
+        if (metal_of(rows, structure).exists()) {
             const auto& runs = bodies.run_indices[striker];
             count = std::min(count, std::accumulate(runs.begin(), runs.begin() + kMostDrawnMaterials, 0u));
         }
@@ -93,7 +93,7 @@ void for_each_triangle(const BodyRows& rows, const QueryIndex& index, Row<Bodies
 }
 
 // Rows run along the axis of the striker that is most square to the push: so an upright pole is straight on the grid.
-Aim aim_at(const BodyRows& rows, Row<Tasks> task, Row<Bodies> striker, const Pose& struck, Vec3d point, Vec3d push) {
+Aim aim_at(Read<MetalRows> rows, Row<Tasks> task, Row<Bodies> striker, const Pose& struck, Vec3d point, Vec3d push) {
     Aim aim;
     aim.point = point, aim.push = push;
     const Pose own = pose_of(rows.bodies, striker);
@@ -110,7 +110,7 @@ Aim aim_at(const BodyRows& rows, Row<Tasks> task, Row<Bodies> striker, const Pos
     const Range& vertices = shells.shells.vertices[shell];
     double low = 1e30, high = -1e30;
     for (uint32_t v = 0; v < vertices.count; ++v) {
-        const Across p = aim.of(Vec3d(rows.vertices.rest[vertices.first + v]));
+        const Across p = aim.of(Vec3d(rows.shell_rows.vertices.rest[vertices.first + v]));
         aim.body.include(p);
         low = std::min(low, p.along), high = std::max(high, p.along);
     }
@@ -187,7 +187,7 @@ bool is_flat(const std::array<float, kFrontRows>* rows, double within) {
 
 }  // namespace
 
-StrikerShape lay_front(BodyRows& rows, const QueryIndex& index, Row<Tasks> task, Row<Bodies> striker, Vec3d point,
+StrikerShape lay_front(MetalRows rows, const QueryIndex& index, Row<Tasks> task, Row<Bodies> striker, Vec3d point,
                        Vec3d push) {
     if (!striker.exists()) return StrikerShape::Plane;
     const Pose struck = pose_of(rows.bodies, rows.tasks.body[task]);
@@ -224,7 +224,7 @@ StrikerShape lay_front(BodyRows& rows, const QueryIndex& index, Row<Tasks> task,
     return StrikerShape::Front;
 }
 
-Striker striker_of(const BodyRows& rows, Row<Tasks> task) {
+Striker striker_of(Read<MetalRows> rows, Row<Tasks> task) {
     const MetalRuns& runs = rows.metal_runs;
     Striker striker;
     striker.shape = static_cast<StrikerShape>(runs.shape[task]);

@@ -47,8 +47,8 @@ void finish_vertex(const MetalView& metal, uint32_t vertex, uint32_t end) {
 
 // Of the elements that an inserted vertex makes, the one at the first end of its edge comes first, then the one at the
 // second; the other two follow where the edge has two sides.
-void follow_element(ShellView shell, uint32_t element) {
-    const MetalView metal(shell.state, shell.structure);
+void follow_element(const CutRepair& repair, ShellView shell, uint32_t element) {
+    const MetalView metal({shell.state, static_cast<const MetalRepair&>(repair).metal}, shell.structure);
     const uint32_t vertex = shell.vertex_count() - 1, k = corner_at(shell, element, vertex);
     if (k > 2) return;
     const auto& corner = metal.corners(element);
@@ -57,7 +57,7 @@ void follow_element(ShellView shell, uint32_t element) {
     if (element < elements.count) return;
     // It was cut off the element that ends where the new vertex begins.
     const uint32_t from = shell.state.elements.neighbour[shell.element(element)][(k + 2) % 3];
-    auto& cell = shell.state.metal_elements.cell;
+    auto& cell = metal.metal.metal_elements.cell;
     elements.count = element + 1;
     cell[elements.first + element] = cell[elements.first + from];
     if (metal.vertices().is_queued[metal.vertex(vertex)]) finish_vertex(metal, vertex, corner[(k + 1) % 3]);
@@ -121,9 +121,11 @@ void lay_springs(const MetalView& metal, uint32_t vertex) {
 
 }  // namespace
 
-const CutRepair kMetalRepair{follow_element, [](ShellView, uint32_t) { return 0u; },
-                             []([[maybe_unused]] const Structures& structures, Row<Structures>) { return true; },
-                             [](ShellView, uint32_t, uint32_t, uint32_t) {}, [](ShellView) {}};
+MetalRepair::MetalRepair(const MetalView& of)
+    : CutRepair{follow_element, [](ShellView, uint32_t) { return 0u; },
+                []([[maybe_unused]] const Structures& structures, Row<Structures>) { return true; },
+                [](ShellView, uint32_t, uint32_t, uint32_t) {}, [](ShellView) {}},
+      metal(of.metal) {}
 
 // Cuts mark what they open, so that few have to be looked through.
 void follow_copies(const MetalView& metal) {

@@ -7,7 +7,10 @@
 namespace cullet {
 
 /// While cuts put vertices on edges, one after the other. What has no room for its rows has none in the shell either.
-extern const CutRepair kMetalRepair;
+struct MetalRepair : CutRepair {
+    explicit MetalRepair(const MetalView& of);
+    MetalTables metal;
+};
 
 /// What rows of the shell were there before some cuts.
 struct RowsBefore {

@@ -74,13 +74,13 @@ Lump lump_of(const ShellView& shell) {
 
 }  // namespace
 
-void move_torn(BodyRows& rows, Row<Tasks> task, uint32_t vertex, const Punch& punch) {
+void move_torn(MetalRows rows, Row<Tasks> task, uint32_t vertex, const Punch& punch) {
     const ShellView shell(rows, rows.tasks.working[task]);
     const Row<Bodies> body = rows.tasks.body[task];
     Vertices& vertices = shell.state.vertices;
     const bool is_free = static_cast<BodyKind>(rows.bodies.kind[body]) == BodyKind::Dynamic;
     const Lump whole = lump_of(shell);
-    const std::span<FragmentPart> parts = rows.shell_parts.of_task(task);
+    const std::span<FragmentPart> parts = rows.shell_rows.shell_parts.of_task(task);
     // What came off where the striker is.
     const uint32_t count = find_torn(shell, parts);
     const uint32_t element = vertices.element[shell.vertex(vertex)];

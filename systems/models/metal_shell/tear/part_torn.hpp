@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "components/body_rows.hpp"
+#include "components/metal_rows.hpp"
 
 namespace cullet {
 
@@ -21,6 +21,6 @@ struct Punch {
 };
 /// Velocities of the working copy's vertices: the body's, and what the impulse gives it; what has come off at `vertex`
 /// goes on with the striker.
-void move_torn(BodyRows& rows, Row<Tasks> task, uint32_t vertex, const Punch& punch);
+void move_torn(MetalRows rows, Row<Tasks> task, uint32_t vertex, const Punch& punch);
 
 }  // namespace cullet

@@ -38,7 +38,7 @@ struct Tearing {
     }
     void cut(std::span<const Vec3> line, double inner, double outer) {
         const CutSurface surface(star.push.to_float(), line, window(inner, outer));
-        const CutReport report = cut_shell(metal.shell, surface, pin_boxes, {}, kMetalRepair);
+        const CutReport report = cut_shell(metal.shell, surface, pin_boxes, {}, MetalRepair(metal));
         tear.cut_edges += report.cut_edges;
         tear.is_full = tear.is_full || report.is_full;
         follow_copies(metal);

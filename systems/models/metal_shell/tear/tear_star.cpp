@@ -58,7 +58,7 @@ double nearest_root(uint32_t arms) {
 }
 
 double work_of(const MetalView& metal, uint32_t arms, double length) {
-    const SheetMetal sheet = sheet_metal(metal.shell);
+    const SheetMetal sheet = sheet_metal(metal);
     return kWorkALength * sheet.yield_stress * sheet.thickness * sheet.thickness * arms * length;
 }
 

@@ -11,6 +11,7 @@ struct LoopWorld {
     RunRows& state;
     const Blows& blows;  // a run that begins again is kicked again
 
+    RunRows& tables() const { return state; }
     template <class T>
     auto& table() {
         if constexpr (std::is_same_v<T, Blows>)

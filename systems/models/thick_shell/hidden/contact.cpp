@@ -212,8 +212,8 @@ PatchSpring patch_spring(const PatchVertices& patches, uint32_t p) {
     return {patches.stiffness[p], patches.crushed_stiffness[p], patches.yield_force[p]};
 }
 
-bool contact_forces(RunRows& state, Row<Tasks> task) {
-    const ShellView shell(state, state.tasks.working[task]);
+bool contact_forces(PatchTables state, Row<Tasks> task) {
+    const ShellIn<PatchTables> shell(state, state.tasks.working[task]);
     PatchVertices& patches = state.patch_vertices;
     Vertices& vertices = state.vertices;
     const TaskContacts& contacts = state.task_contacts;
@@ -234,8 +234,8 @@ bool contact_forces(RunRows& state, Row<Tasks> task) {
     return touches;
 }
 
-void apply_contact(RunRows& state, Row<Tasks> task, uint32_t side) {
-    const ShellView shell(state, state.tasks.working[task]);
+void apply_contact(PassedTables state, Row<Tasks> task, uint32_t side) {
+    const ShellIn<PassedTables> shell(state, state.tasks.working[task]);
     TaskContacts& contacts = state.task_contacts;
     Vertices& vertices = state.vertices;
     const int next = static_cast<int>(~side & 1);

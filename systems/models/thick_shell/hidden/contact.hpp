@@ -3,7 +3,7 @@
 //
 //     contact_forces(side) -> integrate_packs over all packs -> apply_contact(side)
 #pragma once
-#include "components/run_rows.hpp"
+#include "components/shell_groups.hpp"
 #include "systems/models/thick_shell/hidden/crush.hpp"
 
 namespace cullet {
@@ -18,11 +18,11 @@ PatchSpring patch_spring(const PatchVertices& patches, uint32_t row);
 
 /// Forces along n from the depths travel - n.u_i before the step, and what they crush (crush.hpp). True when some
 /// spring pushes.
-bool contact_forces(RunRows& state, Row<Tasks> task);
+bool contact_forces(PatchTables state, Row<Tasks> task);
 
 /// After the fused pass of the step that read `side` of the probe: adds dt f/m to v, dt^2 f/m to u, dt (dt + beta) f/m
 /// to the next probe; moves the strikers and books their impulse.
-void apply_contact(RunRows& state, Row<Tasks> task, uint32_t side);
+void apply_contact(PassedTables state, Row<Tasks> task, uint32_t side);
 
 /// Force that the body's springs exert on its pinned vertices at side `side` of the probe, N. Times dt, step by step,
 /// this is the impulse that goes to the ground: with `impulse` of the contacts, what the body's momentum changes by is

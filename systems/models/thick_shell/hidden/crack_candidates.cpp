@@ -98,7 +98,7 @@ StartField grained_field(ShellView shell, uint32_t vertex, const GrainLimits& li
 
 }  // namespace
 
-CrackLimits crack_limits(ShellView shell, float strength_scale) {
+CrackLimits crack_limits(StressView shell, float strength_scale) {
     const Materials& m = shell.state.materials;
     const uint32_t row = shell.structures().material[shell.structure];
     const float strength = kShortLoadFactor * m.tensile_strength[row];
@@ -110,7 +110,7 @@ CrackLimits crack_limits(ShellView shell, float strength_scale) {
     limits.start = strength_scale * strength;
     limits.tip = strength_scale * std::min(strength, griffith);
     limits.tip_speed = kTipSpeed * c;
-    const TraitsRow traits = material_traits(shell.state, Row<Materials>(row));
+    const TraitsRow traits = material_traits({shell.state.materials, shell.state.material_traits}, Row<Materials>(row));
     limits.fracture = traits.fracture;
     limits.ban_seconds = kCoarseBanEdges * shell.shells().mean_edge[shell.row] / c;
     limits.branching = traits.branching;

@@ -3,6 +3,7 @@
 #include "cullet/material.hpp"
 #include "systems/models/thick_shell/hidden/grain.hpp"
 #include "systems/models/thick_shell/hidden/heading.hpp"
+#include "systems/models/thick_shell/stiffness/element_stress.hpp"
 
 namespace cullet {
 
@@ -27,7 +28,7 @@ inline bool may_start(const Vertices& vertices, uint32_t row, FractureKind fract
     // A ban of large fracture lasts; the others' end at ready_time, which such vertices have no other use for.
     return !vertices.is_start_banned[row] || (fracture != FractureKind::Large && time >= vertices.ready_time[row]);
 }
-CrackLimits crack_limits(ShellView shell, float strength_scale);
+CrackLimits crack_limits(StressView shell, float strength_scale);
 
 struct Candidate {
     bool is_tip;

@@ -6,7 +6,7 @@
 
 namespace cullet {
 
-void want_stiffness(Serial, Own<TaskOpened> opened, const RunRows& rows, Events<StiffnessWanted>& wanted) {
+void want_stiffness(Serial, Own<TaskOpened> opened, RunKinds rows, Events<StiffnessWanted>& wanted) {
     wanted.clear();
     for (const TaskOpened& o : opened) {
         const bool runs = static_cast<TaskState>(rows.tasks.state[o.task]) == TaskState::Running;

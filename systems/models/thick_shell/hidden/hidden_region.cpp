@@ -28,7 +28,7 @@ void grow(Table& table, uint32_t rows) {
 
 /// Calls f(vertex) for each held vertex of the cut-out, rising.
 template <class F>
-void for_each_held(const RunRows& state, Row<Tasks> task, F&& f) {
+void for_each_held(Tables<const HiddenRuns, const MarkedPacks> state, Row<Tasks> task, F&& f) {
     const MarkedPacks& packs = state.marked_packs;
     const uint32_t first = task * kMostMarkedPacks, end = first + state.hidden_runs.pack_count[task];
     for (uint32_t row = first; row < end; ++row)
@@ -113,7 +113,7 @@ void for_each_by_border(const RunRows& state, Row<Tasks> task, F&& f) {
 }
 
 /// Puts a held vertex where the rest has it.
-void follow(RunRows& state, Row<Tasks> task, uint32_t row, const BodyMotion& now) {
+void follow(Tables<const RegionRests, Vertices> state, Row<Tasks> task, uint32_t row, const BodyMotion& now) {
     const RegionRests& rests = state.region_rests;
     Vertices& vertices = state.vertices;
     const Vec3 v = now.at(vertices.rest[row]).to_float();
@@ -124,7 +124,7 @@ void follow(RunRows& state, Row<Tasks> task, uint32_t row, const BodyMotion& now
 
 }  // namespace
 
-BodyMotion rest_motion(const RunRows& state, Row<Tasks> task) {
+BodyMotion rest_motion(Tables<const RegionRests> state, Row<Tasks> task) {
     const RegionRests& rests = state.region_rests;
     return {rests.centre[task], rests.velocity[task], rests.spin[task]};
 }
@@ -163,12 +163,12 @@ bool give_hidden_rows(RunRows& state, Row<Tasks> task, uint32_t vertices, const 
     return true;
 }
 
-uint32_t packs_to_assemble(const RunRows& state, Row<Tasks> task) {
+uint32_t packs_to_assemble(RunKinds state, Row<Tasks> task) {
     const Shells& shells = state.shells;
-    const Row<Shells> source = state.shell_of(state.tasks.source[task]);
+    const Row<Shells> source = shell_of(state.structures, state.tasks.source[task]);
     const bool is_region = is_hidden_region(state, task);
     if (!is_region && shells.packs[source].count > 0) return 0;
-    const Row<Shells> copied = is_region ? state.shell_of(state.tasks.working[task]) : source;
+    const Row<Shells> copied = is_region ? shell_of(state.structures, state.tasks.working[task]) : source;
     return (shells.vertices[copied].count + kLanes - 1) / kLanes;
 }
 
@@ -201,10 +201,10 @@ void start_rest(RunRows& state, Row<Tasks> task) {
     });
 }
 
-void move_rest(RunRows& state, Row<Tasks> task, uint32_t side) {
+void move_rest(PassedTables state, Row<Tasks> task, uint32_t side) {
     RegionRests& rests = state.region_rests;
     Vertices& vertices = state.vertices;
-    const ShellView cut(state, state.tasks.working[task]);
+    const ShellIn<PassedTables> cut(state, state.tasks.working[task]);
     const double dt = state.hidden_runs.time_step[task];
     if (rests.inverse_mass[task] > 0) {
         const BodyMotion before = rest_motion(state, task);

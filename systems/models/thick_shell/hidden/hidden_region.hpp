@@ -8,6 +8,7 @@
 // is a tenth before the first crack, and half after it: blows just hard enough to break a body do so anywhere in it,
 // those that are harder break it where they hit.
 #pragma once
+#include "components/shell_groups.hpp"
 #include "engine/events.hpp"
 #include "systems/models/thick_shell/shared/cut_out.hpp"
 #include "systems/models/thick_shell/shared/quick_body.hpp"
@@ -16,7 +17,7 @@
 namespace cullet {
 
 /// Whether the task is a hidden run on a cut-out.
-inline bool is_hidden_region(const RunRows& state, uint32_t task) {
+inline bool is_hidden_region(Tables<const HiddenRuns, const QuickRuns> state, uint32_t task) {
     return is_cut_out(state, task) && !is_quick_task(state, task);
 }
 
@@ -26,7 +27,7 @@ inline bool is_hidden_region(const RunRows& state, uint32_t task) {
 bool give_hidden_rows(RunRows& state, Row<Tasks> task, uint32_t vertices, const char** full);
 /// Packs of a hidden task's working copy whose stiffness its body's shell does not have: all of a cut-out, all or none
 /// of a copy of the whole.
-uint32_t packs_to_assemble(const RunRows& state, Row<Tasks> task);
+uint32_t packs_to_assemble(RunKinds state, Row<Tasks> task);
 /// A cut-out alone; false: it is too wide, or there is no room.
 bool reserve_hidden_region(RunRows& state, Row<Tasks> task, uint32_t vertices, const char** full);
 
@@ -36,13 +37,13 @@ void find_rest(RunRows& state, Row<Tasks> task);
 void start_rest(RunRows& state, Row<Tasks> task);
 /// After a step, which moved held vertices as if they were free: what the stiffness gave them goes to the rest, and
 /// they go where it goes. `side`: of the probe that the step read.
-void move_rest(RunRows& state, Row<Tasks> task, uint32_t side);
+void move_rest(PassedTables state, Row<Tasks> task, uint32_t side);
 /// After the run's first crack: its border takes more stress before the region grows.
 void bear_more(RunRows& state, Row<Tasks> task);
 /// Kinetic energy of the rest less that of its vertices in the cut-out, which are counted as the cut-out's, J.
 double rest_energy(const RunRows& state, Row<Tasks> task);
 /// The rest's motion now: of what the cut-out does not have.
-BodyMotion rest_motion(const RunRows& state, Row<Tasks> task);
+BodyMotion rest_motion(Tables<const RegionRests> state, Row<Tasks> task);
 
 /// Whether a vertex of the task's shell is held or too near to what is held for a crack. False of whole bodies.
 bool is_by_border(const RunRows& state, Row<Tasks> task, uint32_t vertex);

@@ -9,7 +9,7 @@ namespace cullet {
 namespace {
 
 /// What cuts have left of the frame's units is enough for the last step and for what is born then.
-bool may_end(const RunRows& state, Row<Tasks> task) {
+bool may_end(PassedTables state, Row<Tasks> task) {
     const uint64_t a_step = units_a_step(state, task);
     return state.tasks.steps_granted[task] * a_step >= a_step + units_of_birth(state, task);
 }
@@ -17,7 +17,7 @@ bool may_end(const RunRows& state, Row<Tasks> task) {
 }  // namespace
 
 // A run ends after T, or after a quiet time since the last crack or touch; contact chatters, so T usually ends it.
-void pass_impulses(Of<Tasks> task, Turn turn, RunRows& rows) {
+void pass_impulses(Of<Tasks> task, Turn turn, PassedTables rows) {
     const Row<Tasks> t = task.row;
     if (is_hidden_region(rows, t)) move_rest(rows, t, turn.old_side);
     apply_contact(rows, t, turn.old_side);

@@ -3,7 +3,7 @@
 
 namespace cullet {
 
-void push_patches(Of<Tasks> task, RunRows& rows) {
+void push_patches(Of<Tasks> task, PatchTables rows) {
     const Row<Tasks> t = task.row;
     const bool touches = contact_forces(rows, t);
     if (touches)

@@ -11,9 +11,14 @@ inline uint64_t units_a_step(uint64_t vertex_count, uint64_t patch_vertex_count)
     return vertex_count * kUnitsHiddenStep + vertex_count * kUnitsStressCheck / kStepsAStressCheck +
            vertex_count * kUnitsEnergyCheck / kStepsAnEnergyCheck + patch_vertex_count * kUnitsContactVertex + 100;
 }
-inline uint64_t units_a_step(const RunRows& rows, uint32_t t) {
+inline uint64_t units_a_step(Tables<const Structures, const Shells, const Tasks> rows, uint32_t t) {
     const Tasks& tasks = rows.tasks;
-    return units_a_step(rows.shells.vertices[rows.shell_of(tasks.working[t])].count, 64 * tasks.contact_count[t]);
+    return units_a_step(rows.shells.vertices[shell_of(rows.structures, tasks.working[t])].count,
+                        64 * tasks.contact_count[t]);
+}
+
+inline uint64_t units_of_birth(Tables<const Structures, const Shells, const Tasks> rows, uint32_t t) {
+    return units_of_birth(rows.tasks, t, rows.shells.vertices[shell_of(rows.structures, rows.tasks.working[t])].count);
 }
 
 /// The hidden run of a shell of more vertices is one that all workers share. Below it they wait for each other as long

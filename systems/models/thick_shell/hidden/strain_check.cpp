@@ -3,8 +3,8 @@
 
 namespace cullet {
 
-void strain_check(Rows<Elements> elements, Of<Tasks> task, Turn turn, InChunks<RunRows> rows) {
-    const ShellView shell(rows.set, rows->tasks.working[task.row]);
+void strain_check(Rows<Elements> elements, Of<Tasks> task, Turn turn, InChunks<TaskStress> rows) {
+    const StressView shell(rows.set, rows->tasks.working[task.row]);
     strain_elements(shell, turn.new_side, elements.first - shell.elements().first, elements.count);
 }
 

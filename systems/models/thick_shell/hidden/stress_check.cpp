@@ -5,8 +5,8 @@
 
 namespace cullet {
 
-void stress_check(Rows<Elements> elements, Of<Tasks> task, InChunks<RunRows> rows) {
-    const ShellView shell(rows.set, rows->tasks.working[task.row]);
+void stress_check(Rows<Elements> elements, Of<Tasks> task, InChunks<TaskStress> rows) {
+    const StressView shell(rows.set, rows->tasks.working[task.row]);
     const float start_limit = crack_limits(shell, rows->tasks.strength_scale[task.row]).start;
     stress_elements(shell, elements.first - shell.elements().first, elements.count, start_limit);
 }

@@ -13,8 +13,8 @@ void push_region_patches(Of<Tasks> task, RunRows& rows) {
 }
 
 // The kernel knows packs by their place in the shell: it is called for runs of neighbouring ones.
-void integrate_region(Rows<MarkedPacks> packs, Of<Tasks> task, Turn turn, InChunks<RunRows> rows) {
-    const SpringView view(rows.set, rows.set.quick_runs.springs[task.row]);
+void integrate_region(Rows<MarkedPacks> packs, Of<Tasks> task, Turn turn, InChunks<SteppedRegion> rows) {
+    const SteppedView view(rows.set, rows.set.quick_runs.springs[task.row]);
     const SpringStep step(view, turn.old_side);
     const bool is_pressed = has_energies(view.own(), view.row);
     const auto integrate = view.layout() == SpringLayout::OneLayer   ? integrate_spring_packs

@@ -22,7 +22,7 @@ bool is_for_cut_outs(const ShellRows& state, Row<Structures> shell, bool is_quic
 /// cracks add.
 bool may_cut_out(const BodyRows& state, Row<Bodies> body);
 
-inline bool is_cut_out(const RunRows& state, uint32_t task) {
+inline bool is_cut_out(Tables<const HiddenRuns> state, uint32_t task) {
     return state.hidden_runs.cut_elements[task] > 0;
 }
 

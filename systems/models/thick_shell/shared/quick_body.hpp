@@ -14,7 +14,7 @@ void inherit_fracture(BodyRows& state, Row<Bodies> parent, Row<Bodies> piece);
 inline bool is_quick_body(const BodyRows& state, Row<Bodies> body) {
     return body < state.quick_bodies.size() && state.quick_bodies.is_quick[body];
 }
-inline bool is_quick_task(const RunRows& state, uint32_t task) {
+inline bool is_quick_task(Tables<const QuickRuns> state, uint32_t task) {
     return task < state.quick_runs.size() && state.quick_runs.is_quick[task];
 }
 /// The row of a task whose body is `body`; none is written while no body is quick. Serial.
@@ -25,7 +25,7 @@ void set_quick_task(RunRows& state, Row<Tasks> task, const QuickSettings& settin
 
 /// s of B7 for the task's contact: stiffness is E / s, forces that do not grow with it are divided by the root of s. 1
 /// of hidden runs.
-inline float softening_of(const RunRows& state, uint32_t task) {
+inline float softening_of(Tables<const QuickRuns> state, uint32_t task) {
     return is_quick_task(state, task) ? state.quick_runs.softening[task] : 1.0f;
 }
 

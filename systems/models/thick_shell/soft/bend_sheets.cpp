@@ -33,7 +33,7 @@ struct Hinge {
 };
 
 struct Sheet {
-    const SpringView& view;
+    const BentView& view;
     double bending, dt;
 
     float rest_length(uint32_t element, size_t k) const {
@@ -61,7 +61,7 @@ struct Sheet {
 
     /// False: a triangle of no area, or nothing of it is free.
     bool find(uint32_t element, size_t k, uint32_t across, Hinge& out) const {
-        const ShellRows& s = view.state;
+        const BentTables& s = view.state;
         const auto& corner = s.elements.corner[view.shell.element(element)];
         const auto& other = s.elements.corner[view.shell.element(across)];
         const uint32_t a = corner[k], b = corner[(k + 1) % 3];
@@ -110,7 +110,7 @@ struct Sheet {
 };
 
 /// A power of two times the substeps between two looks.
-uint32_t substeps_a_bend(const SpringView& view, double bending) {
+uint32_t substeps_a_bend(const BentView& view, double bending) {
     const Shells& shells = view.shell.shells();
     const uint32_t row = view.shell.row;
     const double sheet_mass =
@@ -122,20 +122,20 @@ uint32_t substeps_a_bend(const SpringView& view, double bending) {
     return substeps;
 }
 
-double bending_of(const SpringView& view) {
+double bending_of(const BentView& view) {
     const MaterialTraits& traits = view.state.material_traits;
     const uint32_t material = view.state.structures.material[view.shell.structure];
     return material < traits.size() ? traits.bending_stiffness[material] : 0;
 }
 
-Sheet sheet_of(const SpringView& view, double bending, uint32_t substeps) {
+Sheet sheet_of(const BentView& view, double bending, uint32_t substeps) {
     return {view, bending, double{view.own().time_step[view.row]} * substeps};
 }
 
 }  // namespace
 
-void bend_sheets(Of<ShellSprings> springs, ShellRows& rows) {
-    const SpringView view(rows, springs.row);
+void bend_sheets(Of<ShellSprings> springs, BentTables rows) {
+    const BentView view(rows, springs.row);
     const double bending = bending_of(view);
     if (!(bending > 0)) return;
     const uint32_t substeps = substeps_a_bend(view, bending);
@@ -144,7 +144,7 @@ void bend_sheets(Of<ShellSprings> springs, ShellRows& rows) {
     sheet.for_each_hinge([&](const Hinge& hinge) { sheet.push(hinge); });
 }
 
-double sheet_energy(const SpringView& view) {
+double sheet_energy(const BentView& view) {
     const double bending = bending_of(view);
     double sum = 0;
     if (!(bending > 0) || view.has_layers()) return sum;

@@ -187,7 +187,7 @@ void find_strikers(SoftRows& state, const RigidWorld& rigid, Row<SoftBodies> s, 
     soft.contact_count[s] = gathering.count;
 }
 
-void share_strikers(SoftRows& state) {
+void share_strikers(Tables<const Bodies, const SoftBodies, SoftStrikers> state) {
     const SoftBodies& soft = state.soft_bodies;
     const auto for_each = [&](auto&& f) {
         for (uint32_t s = 0; s < soft.size(); ++s)

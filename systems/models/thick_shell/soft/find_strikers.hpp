@@ -12,6 +12,6 @@ void find_strikers(SoftRows& state, const RigidWorld& rigid, Row<SoftBodies> sof
 
 /// A body that several soft ones may meet in this frame lends each a copy of itself with an equal part of its mass:
 /// each copy's meeting loses energy, and so does their mean. Serial.
-void share_strikers(SoftRows& state);
+void share_strikers(Tables<const Bodies, const SoftBodies, SoftStrikers> state);
 
 }  // namespace cullet

@@ -27,8 +27,8 @@ bool flow(float now, float rest, float yield, float most, float creep, float& pl
 
 /// A spring that is strained beyond yield, or beyond what it bears, or has no length.
 struct Flowing {
-    const SpringView& view;
-    ShellRows& state;
+    const FlowingView& view;
+    const FlowingTables& state;
     float yield, most, creep;
 
     void look_at(uint32_t spring) const {
@@ -56,8 +56,8 @@ struct Flowing {
     }
 };
 
-StrainLook look_of(const SpringView& view, float yield, float most) {
-    ShellRows& s = view.state;
+StrainLook look_of(const FlowingView& view, float yield, float most) {
+    const FlowingTables& s = view.state;
     const uint32_t springs = view.spring(0);
     StrainLook look{};
     look.a = s.springs.a.data() + springs, look.b = s.springs.b.data() + springs;
@@ -77,9 +77,9 @@ StrainLook look_of(const SpringView& view, float yield, float most) {
 // creep = 1 - exp(-dt / tau), here dt / (dt + tau): the implicit step, which needs no libm and never overshoots. A
 // spring writes its own row and its own two slots. Springs.length is left with the strain against the cooked length:
 // what tear_springs looks at.
-void flow_springs(Rows<Springs> springs, Of<ShellSprings> of, Of<SoftBodies> soft_body, InChunks<ShellRows> rows,
+void flow_springs(Rows<Springs> springs, Of<ShellSprings> of, Of<SoftBodies> soft_body, InChunks<FlowingTables> rows,
                   const SoftBodies& soft) {
-    const SpringView view(rows.set, of.row);
+    const FlowingView view(rows.set, of.row);
     const uint32_t s = soft_body.row.index;
     const float dt = float{kSubstepsAFlow} * view.own().time_step[view.row];
     const Flowing flowing{view, rows.set, soft.yield_strain[s], soft.break_strain[s], dt / (dt + kFlowTime)};

@@ -10,22 +10,24 @@ namespace {
 constexpr float kSlop = 0.0005f;  // m that a vertex may lie in a striker
 constexpr float kPushOut = 0.1f;  // m/s at which what lies deeper is put outside, without speed
 
+using MeetingView = SpringsIn<MeetingTables>;
+
 /// One vertex and its inner twin, moved as one.
 struct Point {
-    ShellRows& state;
-    const SpringView& view;
+    const MeetingTables& state;
+    const MeetingView& view;
     uint32_t vertex, row, twin;
     int side;
     float inverse_mass;
 
-    Point(ShellRows& s, const SpringView& v, uint32_t at, int new_side)
-        : state(s),
+    Point(const MeetingView& v, uint32_t at, int new_side)
+        : state(v.state),
           view(v),
           vertex(at),
           row(v.shell.vertex(at)),
           twin(v.has_layers() ? v.twin(at) : 0),
           side(new_side),
-          inverse_mass(s.vertices.inverse_mass[row]) {}
+          inverse_mass(v.state.vertices.inverse_mass[row]) {}
     Vec3 place() const {
         const Float4 p = state.vertices.probe.get(row, side);
         return {p.x, p.y, p.z};
@@ -121,17 +123,18 @@ void meet(const SoftContact& contact, uint32_t lane, SoftStriker& striker, const
 
 }  // namespace
 
-void meet_strikers(Of<SoftBodies> soft_body, Of<ShellSprings> springs, Turn turn, SoftRows& rows) {
+void meet_strikers(Of<SoftBodies> soft_body, Of<ShellSprings> springs, Turn turn, MeetingTables rows,
+                   const SoftBodies& soft, SoftStrikers& strikers, SoftContacts& contacts) {
     const uint32_t s = soft_body.row;
-    const SpringView view(rows, springs.row);
+    const MeetingView view(rows, springs.row);
     const float dt = view.own().time_step[view.row];
     const Vec3 gravity = view.own().gravity[view.row];
-    SoftStriker* const own = rows.soft_strikers.striker.data() + size_t{kMostStrikers} * s;
-    for (uint32_t i = 0; i < rows.soft_bodies.striker_count[s]; ++i) move_striker(own[i], dt, gravity);
+    SoftStriker* const own = strikers.striker.data() + size_t{kMostStrikers} * s;
+    for (uint32_t i = 0; i < soft.striker_count[s]; ++i) move_striker(own[i], dt, gravity);
     const int side = static_cast<int>(turn.new_side);
     const Float4* const places = rows.vertices.probe.data(side) + view.shell.vertex(0);
-    SoftContact* row = rows.soft_contacts.contact.data() + first_contact_row(view.shell.vertices().first);
-    for (SoftContact* const end = row + rows.soft_bodies.contact_count[s]; row != end;) {
+    SoftContact* row = contacts.contact.data() + first_contact_row(view.shell.vertices().first);
+    for (SoftContact* const end = row + soft.contact_count[s]; row != end;) {
         SoftStriker& striker = own[row->striker];
         SoftContact* last = row;
         while (last != end && last->striker == row->striker) ++last;
@@ -140,7 +143,7 @@ void meet_strikers(Of<SoftBodies> soft_body, Of<ShellSprings> springs, Turn turn
         for (; row != last; ++row)
             for (uint32_t bits = row->inside; bits != 0; bits &= bits - 1) {
                 const auto lane = static_cast<uint32_t>(__builtin_ctz(bits));
-                meet(*row, lane, striker, Point(rows, view, row->vertex[lane], side), dt);
+                meet(*row, lane, striker, Point(view, row->vertex[lane], side), dt);
             }
     }
 }

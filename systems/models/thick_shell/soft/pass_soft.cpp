@@ -7,6 +7,7 @@
 #include "systems/models/thick_shell/soft/soft_units.hpp"
 #include "systems/models/thick_shell/springs/start_springs.hpp"
 #include "systems/systems.hpp"
+#include "systems/structures/shell/draw_shell.hpp"
 
 namespace cullet {
 namespace {
@@ -153,7 +154,9 @@ void show_soft(Serial, SoftRows& rows, Events<ShellChanged>& changed, Events<Ref
         if (rows.soft_bodies.lacks_room[s]) refused.push(refused_event(rows.bodies, body, kCrackRoom));
         const auto is_own = [&](const ShellChanged& c) { return c.body == body; };
         if (std::any_of(changed.begin(), changed.end(), is_own)) continue;
-        if (rows.structures.has_cracks[rows.bodies.structure[body]] && !take_view(rows, body))
+        const Row<Structures> structure = rows.bodies.structure[body];
+        if (rows.structures.has_cracks[structure] &&
+            !take_view_rows(rows, body, most_view_rows(ShellView(rows, structure))))
             refused.push(refused_event(rows.bodies, body, "limits.view_vertices"));
         else
             changed.push({body});

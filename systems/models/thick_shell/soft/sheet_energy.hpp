@@ -4,6 +4,6 @@
 namespace cullet {
 
 /// Of the hinges of a sheet whose material has a bending stiffness of its own (bend_sheets.cpp), J; 0 for others.
-double sheet_energy(const SpringView& view);
+double sheet_energy(const BentView& view);
 
 }  // namespace cullet

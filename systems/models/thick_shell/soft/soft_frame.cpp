@@ -17,7 +17,7 @@ void find_soft_strikers(Rows<SoftBodies> soft, Step step, InChunks<SoftRows> row
         if (is_awake(rows->soft_bodies, s)) find_strikers(rows.set, rigid, s, step);
 }
 
-void share_soft_strikers(Serial, SoftRows& rows) {
+void share_soft_strikers(Serial, Tables<const Bodies, const SoftBodies, SoftStrikers> rows) {
     share_strikers(rows);
 }
 

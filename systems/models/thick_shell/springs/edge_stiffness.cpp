@@ -45,8 +45,8 @@ EdgeAreas areas_at(const SpringView& view, uint32_t element, uint32_t edge) {
             const auto first = rest(view, corner[0]);
             return 0.5 * length(cross(rest(view, corner[1]) - first, rest(view, corner[2]) - first));
         };
-        sum.outer += area(outer_rest);
-        if (view.has_layers()) sum.inner += area(inner_rest);
+        sum.outer += area(outer_rest<ShellRows&>);
+        if (view.has_layers()) sum.inner += area(inner_rest<ShellRows&>);
     }
     return sum;
 }
@@ -81,24 +81,6 @@ EdgeMaterial material_of(const SpringView& view) {
 }
 
 }  // namespace
-
-Vec3d outer_rest(const SpringView& view, uint32_t vertex) {
-    return Vec3d(view.state.vertices.rest[view.shell.vertex(vertex)]);
-}
-
-Vec3d inner_rest(const SpringView& view, uint32_t vertex) {
-    const Vertices& vertices = view.state.vertices;
-    const uint32_t row = view.shell.vertex(vertex);
-    const double reach = double{view.own().length_factor[view.row]} * vertices.depth[row];
-    return Vec3d(vertices.rest[row]) + reach * Vec3d(vertices.inward[row]);
-}
-
-double stiff_depth(const SpringView& view, uint32_t vertex) {
-    const Shells& shells = view.shell.shells();
-    const double floor = shells.depth_floor[view.shell.row];
-    const double least = floor > 0 ? floor : 0.05 * shells.thickness[view.shell.row];
-    return std::max<double>(view.state.vertices.depth[view.shell.vertex(vertex)], least);
-}
 
 // Sandwich: skins at +-gamma h / 2 that carry all of E h would bend 3 gamma^2 times too stiffly; so they carry 1 / (3
 // gamma^2) of it, and the mid springs, which do not bend, the rest. The shear pair has the transverse shear rigidity of

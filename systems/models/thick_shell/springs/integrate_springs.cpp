@@ -6,7 +6,7 @@ namespace cullet {
 namespace {
 
 template <class Kernel>
-void integrate(const Rows<SpringPacks>& packs, const SpringView& view, Turn turn, Kernel kernel) {
+void integrate(const Rows<SpringPacks>& packs, const SteppedView& view, Turn turn, Kernel kernel) {
     const uint32_t first = packs.first - view.own().packs[view.row].first;
     if (has_energies(view.own(), view.row)) press_packs(view, turn.old_side, first, packs.count);
     const SpringStep step(view, turn.old_side);
@@ -16,12 +16,12 @@ void integrate(const Rows<SpringPacks>& packs, const SpringView& view, Turn turn
 }  // namespace
 
 // The kernel reads and writes through the columns' addresses; the parameters say which.
-void integrate_springs(Rows<SpringPacks> packs, Of<ShellSprings> springs, Turn turn, InChunks<ShellRows> rows) {
-    integrate(packs, SpringView(rows.set, springs.row), turn, integrate_spring_packs);
+void integrate_springs(Rows<SpringPacks> packs, Of<ShellSprings> springs, Turn turn, InChunks<SteppedTables> rows) {
+    integrate(packs, SteppedView(rows.set, springs.row), turn, integrate_spring_packs);
 }
 
-void integrate_layers(Rows<SpringPacks> packs, Of<ShellSprings> springs, Turn turn, InChunks<ShellRows> rows) {
-    const SpringView view(rows.set, springs.row);
+void integrate_layers(Rows<SpringPacks> packs, Of<ShellSprings> springs, Turn turn, InChunks<SteppedTables> rows) {
+    const SteppedView view(rows.set, springs.row);
     integrate(packs, view, turn,
               view.layout() == SpringLayout::Crossed ? integrate_crossed_packs : integrate_sandwich_packs);
 }

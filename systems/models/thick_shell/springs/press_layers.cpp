@@ -61,11 +61,11 @@ double volume_of(const Prism& prism, const uint32_t (&tetrahedra)[3][4], Vec3d (
 }
 
 struct Presses {
-    const SpringView& view;
+    const SteppedView& view;
     int side;
     double dt, young, area_energy, volume_energy;
 
-    Presses(const SpringView& v, uint32_t current) : view(v), side(static_cast<int>(current)) {
+    Presses(const SteppedView& v, uint32_t current) : view(v), side(static_cast<int>(current)) {
         const ShellSprings& own = v.own();
         dt = own.time_step[v.row], young = own.young_modulus[v.row];
         area_energy = own.area_energy[v.row], volume_energy = own.volume_energy[v.row];
@@ -142,7 +142,7 @@ uint64_t units_of_energies(const ShellSprings& springs, Row<ShellSprings> row) {
            (springs.volume_energy[row] > 0 ? edges * kUnitsVolumeEnergy : 0);
 }
 
-void press_packs(const SpringView& view, uint32_t side, uint32_t first_pack, uint32_t pack_count) {
+void press_packs(const SteppedView& view, uint32_t side, uint32_t first_pack, uint32_t pack_count) {
     const Presses presses(view, side);
     Vertices& vertices = view.state.vertices;
     Twins& twins = view.state.twins;

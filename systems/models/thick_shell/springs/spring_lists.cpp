@@ -11,10 +11,12 @@ float inverse(float rest) {
     return rest > 0 ? 1 / rest : 0;
 }
 
-SpringSlot& slot_at(const SpringView& view, uint32_t place) {
+template <class Rows>
+SpringSlot& slot_at(const SpringsIn<Rows>& view, uint32_t place) {
     return view.state.spring_slots.slot[view.slot(place / kLanes)];
 }
-LayerSlot& layer_at(const SpringView& view, uint32_t place) {
+template <class Rows>
+LayerSlot& layer_at(const SpringsIn<Rows>& view, uint32_t place) {
     return view.state.layer_slots.slot[view.layer_slot(place / kLanes)];
 }
 
@@ -27,7 +29,8 @@ float mean_flow(const Springs& springs, uint32_t row, const LayerSprings& layers
 }
 
 // `end` 0: seen from a; 1: from b, where the two diagonals of the shear pair change places.
-void write_end(const SpringView& view, uint32_t s, uint32_t end) {
+template <class Rows>
+void write_end(const SpringsIn<Rows>& view, uint32_t s, uint32_t end) {
     const Springs& springs = view.state.springs;
     const uint32_t row = view.spring(s), place = springs.place[row][end], k = place % kLanes;
     const float dt = view.own().time_step[view.row];
@@ -60,6 +63,13 @@ void write_end(const SpringView& view, uint32_t s, uint32_t end) {
         more.second_inverse[k] = inverse(other_cross);
         more.second_stiffness[k] = cross * other_cross;
     }
+}
+
+template <class Rows>
+void write_ends(const SpringsIn<Rows>& view, uint32_t s) {
+    if (view.state.springs.a[view.spring(s)] == kNone) return;
+    for (const uint32_t end : {0u, 1u})
+        if (view.state.springs.place[view.spring(s)][end] != kNone) write_end(view, s, end);
 }
 
 }  // namespace
@@ -134,9 +144,11 @@ void write_pack(const SpringView& view, uint32_t pack, const VertexSprings (&lis
 }
 
 void write_spring(const SpringView& view, uint32_t s) {
-    if (view.state.springs.a[view.spring(s)] == kNone) return;
-    for (const uint32_t end : {0u, 1u})
-        if (view.state.springs.place[view.spring(s)][end] != kNone) write_end(view, s, end);
+    write_ends(view, s);
+}
+
+void write_spring(const FlowingView& view, uint32_t s) {
+    write_ends(view, s);
 }
 
 void remember_length(const SpringView& view, uint32_t s) {

@@ -22,6 +22,7 @@ uint32_t slots_needed(const VertexSprings (&lists)[kLanes]);
 void write_pack(const SpringView& view, uint32_t pack, const VertexSprings (&lists)[kLanes]);
 /// Writes what the slots of both ends say about the spring's rest, stiffness and damping: after these have changed
 /// (plastic flow, softening). Lengths that the slots remember stay.
+void write_spring(const FlowingView& view, uint32_t spring);
 void write_spring(const SpringView& view, uint32_t spring);
 /// Springs.length of a spring from its slots; from where its ends are now when it has no place yet.
 void remember_length(const SpringView& view, uint32_t spring);

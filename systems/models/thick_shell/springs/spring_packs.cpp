@@ -238,8 +238,8 @@ void integrate_crossed_packs(const SpringStep& step, uint32_t first_pack, uint32
     HWY_DYNAMIC_DISPATCH(integrate_crossed_packs)(step, first_pack, pack_count);
 }
 
-SpringStep::SpringStep(const SpringView& view, uint32_t current) {
-    ShellRows& state = view.state;
+SpringStep::SpringStep(const SteppedView& view, uint32_t current) {
+    const SteppedTables& state = view.state;
     const ShellSprings& own = view.own();
     const uint32_t packs = own.packs[view.row].first, first = view.shell.vertices().first;
     const int side = static_cast<int>(current & 1), next = 1 - side;

@@ -33,7 +33,7 @@ struct SpringStep {
 
     SpringStep() = default;
     /// `side`: the current one of the positions.
-    SpringStep(const SpringView& view, uint32_t side);
+    SpringStep(const SteppedView& view, uint32_t side);
 };
 
 void integrate_spring_packs(const SpringStep& step, uint32_t first_pack, uint32_t pack_count);

@@ -1,6 +1,6 @@
-// The tables of one shell and its springs, with their ranges looked up.
+// One shell and its springs, in a set or a list of tables, with their ranges looked up.
 #pragma once
-#include "components/shell_rows.hpp"
+#include "components/shell_groups.hpp"
 
 namespace cullet {
 
@@ -8,13 +8,19 @@ namespace cullet {
 /// beside it has a border there (quick mode).
 inline constexpr uint32_t kAsleepSpring = kNone - 1;
 
-struct SpringView {
-    ShellRows& state;
+template <class Rows>
+struct SpringsIn {
+    Rows state;
     Row<ShellSprings> row;
-    ShellView shell;
+    ShellIn<Rows> shell;
 
-    SpringView(ShellRows& s, Row<ShellSprings> r) : state(s), row(r), shell(s, s.shell_springs.structure[r]) {}
-    ShellSprings& own() const { return state.shell_springs; }
+    SpringsIn(Rows s, Row<ShellSprings> r) : state(s), row(r), shell(s, s.shell_springs.structure[r]) {}
+    /// Of a view of more.
+    template <class More>
+    requires std::is_convertible_v<const More&, Rows> SpringsIn(const SpringsIn<More>& o)
+        : state(o.state), row(o.row), shell(o.shell) {}
+
+    auto& own() const { return state.shell_springs; }
     SpringLayout layout() const { return static_cast<SpringLayout>(own().layout[row]); }
     bool has_layers() const { return layout() != SpringLayout::OneLayer; }
     /// The side of two-sided positions that is current.
@@ -48,5 +54,10 @@ struct SpringView {
         for (int k = 0; k < 2; ++k) state.twins.position.set(twin(v), {p.x, p.y, p.z, -1}, k);
     }
 };
+using SpringView = SpringsIn<ShellRows&>;
+
+using SteppedView = SpringsIn<SteppedTables>;
+using FlowingView = SpringsIn<FlowingTables>;
+using BentView = SpringsIn<BentTables>;
 
 }  // namespace cullet

@@ -13,10 +13,11 @@ struct PlaneStress {
     bool has_grain = false;
     GrainModuli grain{};
 };
-inline PlaneStress plane_stress(const ShellRows& state, Row<Structures> shell) {
+inline PlaneStress plane_stress(Tables<const Materials, const MaterialTraits, const Structures> state,
+                                Row<Structures> shell) {
     const Row<Materials> material = state.structures.material[shell];
     const double e = state.materials.young_modulus[material], nu = state.materials.poisson_ratio[material];
-    const TraitsRow traits = material_traits(state, material);
+    const TraitsRow traits = material_traits({state.materials, state.material_traits}, material);
     if (traits.has_grain())
         return {0, 0, 0, true, {e, traits.across_young_modulus, traits.shear_modulus, nu, Vec3d(traits.grain)}};
     const double c = e / (1 - nu * nu);

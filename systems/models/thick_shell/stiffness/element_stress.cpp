@@ -15,7 +15,7 @@
 #define CULLET_STRESS_RANGE
 namespace cullet {
 /// Columns of one shell's elements and hinges, from its first rows on.
-struct StressTables {
+struct StressColumns {
     const Float4* probe;
     const std::array<uint32_t, 3>*corner, *other_slope;
     const uint8_t* flags;
@@ -43,7 +43,7 @@ HWY_INLINE V3 cross(V3 a, V3 b) {
 }
 
 /// Corners of 8 elements, element after element; dead and missing ones read vertex 0 three times: no strain.
-HWY_INLINE const uint32_t* corners_of(const StressTables& t, uint32_t e, uint32_t end,
+HWY_INLINE const uint32_t* corners_of(const StressColumns& t, uint32_t e, uint32_t end,
                                       uint32_t (&patched)[3 * kLanes]) {
     uint64_t flags = 0, dead = 0;
     std::memcpy(&flags, t.flags + e, sizeof flags);
@@ -61,7 +61,7 @@ struct Strain {
     V3 slope;     // of the normal displacement against edge 0, 1, 2, towards the corner opposite
 };
 /// Of elements e to e + kStep with these corners.
-HWY_INLINE Strain strain(const StressTables& t, uint32_t e, const uint32_t* corner) {
+HWY_INLINE Strain strain(const StressColumns& t, uint32_t e, const uint32_t* corner) {
     const V3 w = gather<3>(t.probe, corner);
     const V3 d1 = gather<3>(t.probe, corner + 1) - w, d2 = gather<3>(t.probe, corner + 2) - w;
     const V3 x = load(t.axis_x, e), y = load(t.axis_y, e), i = load(t.inverse_edges, e), a = load(t.altitude, e);
@@ -76,7 +76,7 @@ HWY_INLINE Strain strain(const StressTables& t, uint32_t e, const uint32_t* corn
             {hn::Mul(a.x, to_2), hn::Neg(hn::Mul(a.y, hn::Add(to_1, to_2))), hn::Mul(a.z, to_1)}};
 }
 
-HWY_INLINE V3 stress(const StressTables& t, V scale, V3 eps) {
+HWY_INLINE V3 stress(const StressColumns& t, V scale, V3 eps) {
     const Floats d;
     const V c11 = hn::Set(d, t.c11), c12 = hn::Set(d, t.c12), c33 = hn::Set(d, t.c33);
     return scaled(scale, {hn::Add(hn::Mul(c11, eps.x), hn::Mul(c12, eps.y)),
@@ -92,7 +92,7 @@ HWY_INLINE V principal_of(V3 s) {
 
 /// Strains of [first, first + count); `use` takes those of each kStep elements.
 template <class Use>
-HWY_INLINE void strain_range(const StressTables& t, uint32_t first, uint32_t count, Use use) {
+HWY_INLINE void strain_range(const StressColumns& t, uint32_t first, uint32_t count, Use use) {
     const uint32_t end = first + count;
     for (uint32_t e = first; e < end; e += kLanes) {
         uint32_t patched[3 * kLanes];
@@ -105,14 +105,14 @@ HWY_INLINE void strain_range(const StressTables& t, uint32_t first, uint32_t cou
     }
 }
 
-void membrane_range(const StressTables& t, uint32_t first, uint32_t count) {
+void membrane_range(const StressColumns& t, uint32_t first, uint32_t count) {
     strain_range(t, first, count, [&](uint32_t e, V3 eps) HWY_ATTR {
         store(stress(t, hn::LoadU(Floats(), t.scale + e), eps), t.outer[0] + e, t.outer[1] + e, t.outer[2] + e);
     });
 }
 
 /// Sum of 1/2 A h s eps.C eps: each element in float, the sum in double, element after element.
-double energy_range(const StressTables& t, uint32_t first, uint32_t count) {
+double energy_range(const StressColumns& t, uint32_t first, uint32_t count) {
     const Floats d;
     double sum = 0;
     strain_range(t, first, count, [&](uint32_t e, V3 eps) HWY_ATTR {
@@ -127,7 +127,7 @@ double energy_range(const StressTables& t, uint32_t first, uint32_t count) {
 alignas(32) inline constexpr uint32_t kThreeLanes[] = {0, 3, 6, 9, 12, 15, 18, 21};  // hn::Iota goes through memory
 
 /// Angles of the hinges of kStep elements' edges, 0 where there is none: a half without another names itself.
-HWY_INLINE V3 hinge_angles(const StressTables& t, uint32_t e) {
+HWY_INLINE V3 hinge_angles(const StressColumns& t, uint32_t e) {
     const Indices u;
     V3 own;
     hn::Vec<Indices> other[3];
@@ -143,7 +143,7 @@ HWY_INLINE V3 hinge_angles(const StressTables& t, uint32_t e) {
 }
 
 /// Curvature as a strain at distance h / 2: gamma is twice the xy entry.
-HWY_INLINE V3 bending_strain(const StressTables& t, uint32_t e, V3 angle) {
+HWY_INLINE V3 bending_strain(const StressColumns& t, uint32_t e, V3 angle) {
     const V3 i = load(t.inverse_edges, e), a = load(t.altitude, e);
     const V half = hn::Mul(hn::Set(Floats(), 0.5f), hn::LoadU(Floats(), t.thickness + e));
     const V q0 = hn::Mul(half, hn::Mul(a.x, angle.x)), q1 = hn::Mul(half, hn::Mul(a.y, angle.y)),
@@ -157,7 +157,7 @@ HWY_INLINE V3 bending_strain(const StressTables& t, uint32_t e, V3 angle) {
 }
 
 /// Returns a bit for each of kStep elements: its stress passes the limit of starts.
-HWY_INLINE unsigned stress_lanes(const StressTables& t, uint32_t e) {
+HWY_INLINE unsigned stress_lanes(const StressColumns& t, uint32_t e) {
     const Floats d;
     const V3 bend = stress(t, hn::LoadU(d, t.scale + e), bending_strain(t, e, hinge_angles(t, e)));
     const V3 membrane = load(t.outer[0] + e, t.outer[1] + e, t.outer[2] + e);
@@ -172,7 +172,7 @@ HWY_INLINE unsigned stress_lanes(const StressTables& t, uint32_t e) {
     return bits[0];
 }
 
-void stress_range(const StressTables& t, uint32_t first, uint32_t count) {
+void stress_range(const StressColumns& t, uint32_t first, uint32_t count) {
     for (uint32_t e = first; e < first + count; e += kLanes) {
         unsigned bits = 0;
         for (uint32_t lane = 0; lane < kLanes; lane += kStep) bits |= stress_lanes(t, e + lane) << lane;
@@ -200,12 +200,12 @@ void lanes_of(Column<Vec3>& column, uint32_t first, float* (&out)[3]) {
     for (int k = 0; k < 3; ++k) out[k] = column.lane(k) + first;
 }
 
-StressTables stress_tables(const ShellView& shell, uint32_t side, float start_limit = kNeverStarts) {
-    ShellRows& state = shell.state;
+StressColumns stress_columns(const StressView& shell, uint32_t side, float start_limit = kNeverStarts) {
+    const StressTables& state = shell.state;
     const TriangleSprings& springs = state.triangle_springs;
     const uint32_t e = shell.elements().first;
     const PlaneStress c = plane_stress(state, shell.structure);
-    StressTables t{};
+    StressColumns t{};
     t.probe = state.vertices.probe.data(static_cast<int>(side & 1)) + shell.vertices().first;
     t.corner = state.elements.corner.data() + e;
     t.other_slope = state.elements.other_slope.data() + e;
@@ -232,7 +232,7 @@ StressTables stress_tables(const ShellView& shell, uint32_t side, float start_li
 
 // Stresses from the scaled strains of both faces. Plain code: wood is rare, and three products more a triangle in the
 // kernel would cost all others a tenth.
-void follow_grain(const ShellView& shell, const PlaneStress& stress, uint32_t first, uint32_t count,
+void follow_grain(const StressView& shell, const PlaneStress& stress, uint32_t first, uint32_t count,
                   float start_limit) {
     Elements& elements = shell.state.elements;
     for (uint32_t e = first; e < first + count; ++e) {
@@ -255,9 +255,9 @@ void follow_grain(const ShellView& shell, const PlaneStress& stress, uint32_t fi
     }
 }
 
-double grained_membrane_energy(const ShellView& shell, const PlaneStress& stress, uint32_t side, uint32_t first,
+double grained_membrane_energy(const StressView& shell, const PlaneStress& stress, uint32_t side, uint32_t first,
                                uint32_t count) {
-    const ShellRows& state = shell.state;
+    const StressTables& state = shell.state;
     const Float4* w = state.vertices.probe.data(static_cast<int>(side & 1)) + shell.vertices().first;
     double sum = 0;
     for (uint32_t e = first; e < first + count; ++e) {
@@ -303,11 +303,11 @@ void link_slopes(ShellView shell, std::span<const uint32_t> vertices) {
     }
 }
 
-void strain_elements(ShellView shell, uint32_t side, uint32_t first, uint32_t count) {
-    HWY_DYNAMIC_DISPATCH(membrane_range)(stress_tables(shell, side), first, count);
+void strain_elements(StressView shell, uint32_t side, uint32_t first, uint32_t count) {
+    HWY_DYNAMIC_DISPATCH(membrane_range)(stress_columns(shell, side), first, count);
 }
-void stress_elements(ShellView shell, uint32_t first, uint32_t count, float start_limit) {
-    HWY_DYNAMIC_DISPATCH(stress_range)(stress_tables(shell, 0, start_limit), first, count);
+void stress_elements(StressView shell, uint32_t first, uint32_t count, float start_limit) {
+    HWY_DYNAMIC_DISPATCH(stress_range)(stress_columns(shell, 0, start_limit), first, count);
     const PlaneStress stress = plane_stress(shell.state, shell.structure);
     if (stress.has_grain) follow_grain(shell, stress, first, count, start_limit);
 }
@@ -317,8 +317,8 @@ void check_stress(ShellView shell, uint32_t side) {
     stress_elements(shell, 0, shell.element_count(), kNeverStarts);
 }
 // The kernel runs with a grain, too: it writes the slopes that the bending energy is made of.
-double membrane_energy(ShellView shell, uint32_t side, uint32_t first, uint32_t count) {
-    const double energy = HWY_DYNAMIC_DISPATCH(energy_range)(stress_tables(shell, side), first, count);
+double membrane_energy(StressView shell, uint32_t side, uint32_t first, uint32_t count) {
+    const double energy = HWY_DYNAMIC_DISPATCH(energy_range)(stress_columns(shell, side), first, count);
     const PlaneStress stress = plane_stress(shell.state, shell.structure);
     return stress.has_grain ? grained_membrane_energy(shell, stress, side, first, count) : energy;
 }

@@ -11,16 +11,18 @@
 #pragma once
 #include <span>
 
-#include "components/shell_rows.hpp"
+#include "components/shell_groups.hpp"
 
 namespace cullet {
 
+using StressView = ShellIn<StressTables>;
+
 /// First pass, elements [first, first + count): membrane stress (kept in outer_stress) and Elements.slope. `first` is a
 /// multiple of 8, `count` too unless the range ends with the shell's last element.
-void strain_elements(ShellView shell, uint32_t side, uint32_t first, uint32_t count);
+void strain_elements(StressView shell, uint32_t side, uint32_t first, uint32_t count);
 /// Second pass: Elements.outer_stress, inner_stress (in the triangle's axes, scaled by B7's limit) and principal, the
 /// larger of both faces, and over_limit: where that is above `start_limit`, Pa, times start_strength. Ranges as above.
-void stress_elements(ShellView shell, uint32_t first, uint32_t count, float start_limit);
+void stress_elements(StressView shell, uint32_t first, uint32_t count, float start_limit);
 inline constexpr float kNeverStarts = 1e30f;  // Pa
 /// Elements.other_slope, for the passes above: of all elements, or of those round vertices where a cut or an insert
 /// changed neighbours.
@@ -30,6 +32,6 @@ void link_slopes(ShellView shell, std::span<const uint32_t> vertices);
 void check_stress(ShellView shell, uint32_t side);
 
 /// Like strain_elements, but returns the membrane energy of the elements, J, and leaves their stress alone.
-double membrane_energy(ShellView shell, uint32_t side, uint32_t first, uint32_t count);
+double membrane_energy(StressView shell, uint32_t side, uint32_t first, uint32_t count);
 
 }  // namespace cullet

@@ -65,7 +65,10 @@ bool can_rename(const Structures& structures, Row<Structures> shell) {
 
 }  // namespace
 
-const CutRepair kStiffnessRepair{assemble_element, assemble_hinge, can_rename, rename_neighbour, limit_all_stiffness};
+const CutRepair kStiffnessRepair{[]([[maybe_unused]] const CutRepair& repair, ShellView shell, uint32_t element) {
+                                     assemble_element(shell, element);
+                                 },
+                                 assemble_hinge, can_rename, rename_neighbour, limit_all_stiffness};
 
 bool refresh_stiffness(ShellView shell, Touched& touched) {
     if (touched.marks_elements) mark_touched(shell, touched);

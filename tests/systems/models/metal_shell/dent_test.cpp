@@ -37,7 +37,7 @@ double lowest(const MetalView& metal) {
 
 TEST(Dent, ItIsAsDeepAsPlannedWhateverTheSubShells) {
     const test::MetalSheet like(panel());
-    const SheetPlan plan = plan_sheet(sheet_metal(like.view().shell), {0.145, 0.4, 1200, 0});
+    const SheetPlan plan = plan_sheet(sheet_metal(like.view()), {0.145, 0.4, 1200, 0});
     for (const uint32_t cells : {32u, 128u, 512u}) {
         test::MetalSheet sheet(panel(), cells);
         sheet.clamp(kWidth, kHeight);

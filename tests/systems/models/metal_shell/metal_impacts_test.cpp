@@ -101,7 +101,7 @@ TEST(MetalImpacts, SettingsOfTheModelDecideWhatIsCooked) {
     settings.metal_shell.sub_shells = 40;
     settings.metal_shell.crush_pressure = 2e5f;
     const Model model = value_of(cook(test::view_of_mesh(box), settings));
-    const ShellRows& rows = model.contents->state;
+    const Workbench& rows = model.contents->state;
     EXPECT_EQ(rows.metal_shells.cells[Row<MetalShells>(0)].count, 40u);
     EXPECT_EQ(rows.metal_shells.crush_pressure[Row<MetalShells>(0)], 2e5f);
     settings.metal_shell.seeds = MetalChoice::Paper;
