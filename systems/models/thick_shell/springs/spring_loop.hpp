@@ -10,7 +10,7 @@ struct SpringWorld {
     ShellRows& state;
 
     template <class T>
-    T& table() {
+    auto& table() {
         return table_in<T>(state);
     }
     template <class Set>
