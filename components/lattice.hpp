@@ -46,7 +46,7 @@ struct TablesOfLattices {
 };
 
 /// A break of a solid: the solid, its working copy, the task, and who struck whom.
-using LatticeRows =
-    All<SolidRows, Tasks, HiddenRuns, const TaskContacts, const Bodies, const PinBoxes, LatticeRuns, LatticeResults, ScratchMemory>;
+using LatticeRows = All<SolidRows, Tasks, HiddenRuns, const TaskContacts, const Bodies, const PinBoxes, LatticeRuns,
+                        LatticeResults, ScratchMemory>;
 
 }  // namespace cullet

@@ -68,8 +68,8 @@ int bowl(lua_State* lua) {
     const Arguments given(lua, "game.mesh.bowl", {"width", "wall", "around"}, true);
     const float width = given.real("width", kSide, 0.24);
     return made(lua, make_solid_bowl(width, given.real("wall", kSide, 0.006),
-                               static_cast<uint32_t>(
-                                   given.number("around", {"a whole number of points from 8 to 512", 8, 512}, 72))));
+                                     static_cast<uint32_t>(given.number(
+                                         "around", {"a whole number of points from 8 to 512", 8, 512}, 72))));
 }
 
 int pane(lua_State* lua) {

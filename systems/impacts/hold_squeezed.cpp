@@ -127,14 +127,6 @@ void Holding::let_go(uint32_t row) {
         std::max(0.0, work_against(bodies, body, centre_of(bodies, body) - before, step.gravity));
 }
 
-bool is_anything_driven(const Bodies& bodies) {
-    for (uint32_t b = 0; b < bodies.size(); ++b)
-        if (static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Kinematic &&
-            (length(bodies.velocity[b]) > 0 || length(bodies.spin[b]) > 0))
-            return true;
-    return false;
-}
-
 // It cannot give way, or not any more. What comes apart does so before; what yields in its shape has a dent to come.
 bool is_at_its_end(const WorldRows& rows, const DamageLedger& ledger, Row<Bodies> body, const Between& between,
                    double width, double dt) {

@@ -26,6 +26,14 @@ bool touches(const RigidContact& c) {
 
 }  // namespace
 
+bool is_anything_driven(const Bodies& bodies) {
+    for (uint32_t b = 0; b < bodies.size(); ++b) {
+        if (static_cast<BodyKind>(bodies.kind[b]) != BodyKind::Kinematic) continue;
+        if (length(bodies.velocity[b]) > 0 || length(bodies.spin[b]) > 0) return true;
+    }
+    return false;
+}
+
 LoadLists::LoadLists(Bodies& bodies, const Squeezes& squeezes, std::span<const RigidContact> contacts, Step step,
                      Arena& arena)
     : bodies_(bodies),

@@ -9,6 +9,9 @@
 
 namespace cullet {
 
+/// The game moves something: a press, a door, a lift.
+bool is_anything_driven(const Bodies& bodies);
+
 /// Through Bodies.first_load and `next`: entry 2 c + side is contact c on its body a (side 0) or b, in the order of
 /// contacts. No entries, when the arena is full.
 class LoadLists {

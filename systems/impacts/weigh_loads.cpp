@@ -106,15 +106,8 @@ bool is_past_blows(const LoadedBody& of, const DamageSettings& settings) {
 bool is_small(const LoadedBody& of, const DamageSettings& settings) {
     return !may_snap_again(of.structures, of.structure(), settings);
 }
-bool is_anything_driven(const Bodies& bodies) {
-    for (uint32_t b = 0; b < bodies.size(); ++b) {
-        if (static_cast<BodyKind>(bodies.kind[b]) != BodyKind::Kinematic) continue;
-        if (length(bodies.velocity[b]) > 0 || length(bodies.spin[b]) > 0) return true;
-    }
-    return false;
-}
-bool may_be_pressed(const LoadedBody& of, const LoadLists& lists, bool is_anything_driven) {
-    return is_anything_driven || is_sunk(of, 2 * lists.deepest(of.body));
+bool may_be_pressed(const LoadedBody& of, const LoadLists& lists, bool is_any_driven) {
+    return is_any_driven || is_sunk(of, 2 * lists.deepest(of.body));
 }
 
 // What comes apart no further.

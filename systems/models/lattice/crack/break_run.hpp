@@ -18,7 +18,8 @@ struct CrackRules {
     uint32_t most_cracks = 24;  // 0: the gate alone is wanted
     uint32_t most_rounds = 6, most_tries = 40;
     bool is_curved = true;  // false: along planes, which is quicker and plainer
-    /// A load is more than it bears, as who weighed it says: it cracks where it is weakest, if anything of it is pulled.
+    /// A load is more than it bears, as who weighed it says: it cracks where it is weakest, if anything of it is
+    /// pulled.
     bool must_break = false;
 };
 
