@@ -342,7 +342,7 @@ void ContactSolver::set_up_point(PointRows& p, RollRows* r, SiblingRows* s, cons
     const Lanes apart = load(distance), opening = set(p.hold, p.normal);
     const Lanes a_step_ago = apart - opening * dt;
     const Lanes back =
-        (opening < -kRestitutionSpeed) & (a_step_ago > -load(struck)) ? -load(bounce) * opening : Lanes{};
+        ((opening < -kRestitutionSpeed) & (a_step_ago > -load(struck))) ? -load(bounce) * opening : Lanes{};
     // What is still apart may close that far.
     p.hold.wanted = there * (back - opening - forced(p.normal)) - per_second * most(apart, Lanes{});
     p.push_wanted = per_second * least(kPushed * most(-apart, Lanes{}), load(most_push));

@@ -192,14 +192,13 @@ struct OddJobs {
     }
 };
 
-// Two worlds at once on one and two threads: see below. The usual run has one number of threads and one order of jobs.
+// Two and three threads: see below. The usual run has one order of jobs.
 TEST_P(EveryScene, HashesAreEqualOnAnyNumberOfThreads) {
     const Scene& scene = GetParam();
     const std::vector<uint64_t>& one = alone(scene).hashes;
     ASSERT_EQ(one.size(), hashed_frames_of(scene)) << alone(scene).error;
     EXPECT_NE(one.front(), one.back());
-    for (const uint32_t threads : few_or_all<std::vector<uint32_t>>({3}, {3, 8}))
-        EXPECT_EQ(difference(one, hashes_of(scene, threads)), "") << threads << " threads";
+    if (test::plays_all()) EXPECT_EQ(difference(one, hashes_of(scene, 8)), "") << "8 threads";
     for (const bool is_random : few_or_all<std::vector<bool>>({true}, {true, false})) {
         OddJobs jobs{is_random};
         Host host;
@@ -211,13 +210,13 @@ TEST_P(EveryScene, HashesAreEqualOnAnyNumberOfThreads) {
     }
 }
 
-TEST_P(EveryScene, TwoWorldsSteppedOnOneAndTwoThreadsAtOnceDoNotMeet) {
+TEST_P(EveryScene, TwoWorldsSteppedOnTwoAndThreeThreadsAtOnceDoNotMeet) {
     const Scene& scene = GetParam();
     const std::vector<uint64_t>& one = alone(scene).hashes;
     plan_of(scene);  // cooked before two threads ask for it
     std::vector<uint64_t> beside;
     std::thread other([&] { beside = hashes_of(scene, 2); });
-    const std::vector<uint64_t> here = hashes_of(scene, 1);
+    const std::vector<uint64_t> here = hashes_of(scene, 3);
     other.join();
     EXPECT_EQ(difference(one, here), "");
     EXPECT_EQ(difference(one, beside), "");

@@ -198,7 +198,7 @@ constexpr Kind kKinds[] = {{"Shelf", shelf_case, 1.5},
                            {"Bridge", bridge_case, 1.5},
                            {"OnLooseBlocks", blocks_case, 1.5},
                            {"Growing", growing_case, 3}};
-const uint32_t kCases = test::few_or_all(6u, 14u);  // of each kind, that stand and that break
+const uint32_t kCases = test::few_or_all(4u, 14u);  // of each kind, that stand and that break
 uint32_t cases() {
     const char* asked = std::getenv("CULLET_BEARING_CASES");
     return asked ? static_cast<uint32_t>(std::atoi(asked)) : kCases;

@@ -152,7 +152,9 @@ void flood_parts(ShellView shell, FloodedParts& found, uint32_t most) {
         Work(const ShellView& of, uint16_t* parent, uint32_t most_floods) : floods(of, parent, most_floods) {}
     };
     const Scratch<Work> work(shell.state.scratch, shell, found.parent, most);
-    auto& [floods, smallest, order] = *work;
+    Floods& floods = work->floods;
+    uint32_t* smallest = work->smallest;
+    uint16_t* order = work->order;
     found.pieces = found.visited = 0;
     if (!for_each_at_crack(shell, [&](uint32_t e) { return floods.seed(e); })) {
         found.pieces = kNone;

@@ -15,7 +15,7 @@ constexpr double kCreaseWidth = 0.6, kLeastCreaseWidth = 1.3;  // of a cell's ra
 constexpr double kExtent = 1.5;                                // of the mean distance from the centre
 constexpr double kNoFolds = 7, kGateWidth = 4;                 // longest edge squared over twice the area
 constexpr double kOpenSide = 0.3;                              // of all area, that a body leaves open
-constexpr double kTubeLoad = 7.6, kTubePower = 1.5;
+constexpr double kTubeLoad = 7.6;
 
 /// The shell as its elements stand, for what looks at surfaces.
 Surface surface_of(const ShellView& shell) {
