@@ -1,16 +1,18 @@
 #!/usr/bin/env bash
-# scripts/test.sh --all [parts]: every preset with its tests, every fuzz program, the packages, and each scene at every
-# level of SIMD on one thread and on 1, 2, 3 and 8 threads at AVX2, built by g++ and by clang, which must all give the
-# same bytes. Takes hours on two cores, so each part that ends writes its row into tests/ALL.md, with the commit that it
-# saw, and is not played again as long as nothing that it hangs on has changed since. Parts by name: --all tsan vase fuzz_snapshot.
+# scripts/test.sh --all [parts]: the long plays, every preset with the tests that it can tell something new by, every fuzz
+# program, the packages, and each scene at every level of SIMD on one thread and on 1, 2, 3 and 8 threads at AVX2, built by
+# g++ and by clang, which must all give the same bytes. Takes an hour and a half on two cores once everything is built, so
+# each part that ends writes its row into tests/ALL.md, with the commit that it saw, and is not played again as long as
+# nothing that it hangs on has changed since. Parts by name: --all tsan vase fuzz_snapshot; debug is played by its name alone.
 # --failed: of a part whose last row says FAILED only the tests that failed; its row then tells of both runs.
 # --quick: few tests, frames, threads and inputs, to try this script itself; the rows go to build/all/quick.md.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
-presets=(release checked clang debug asan tsan) scenes=(vase wall pane drop pile blows castle rubber cloth steel tear demolition panel drum car shots)
+presets=(checked clang release asan tsan) by_name=(debug)
+scenes=(vase wall pane drop pile blows castle rubber cloth steel tear demolition panel drum car shots statue bowl table museum)
 formats=(mesh_file model_file snapshot recording)
-threads=(1 2 3 8) levels=(scalar sse4 avx2 avx512) frames=300 inputs=50000 fragments=1000000 tests=() page=tests/ALL.md failed_only=false
+threads=(1 2 3 8) levels=(scalar sse4 avx2 avx512) frames=120 inputs=20000 fragments=200000 tests=() page=tests/ALL.md failed_only=false
 if [[ ${1:-} == --failed ]]; then
     shift
     failed_only=true
@@ -67,14 +69,15 @@ write_row() {
         echo
         echo "Written by \`scripts/test.sh --all\`; do not edit. The scenes: $frames frames each, on one thread with kernels at"
         echo "${levels[*]}, on ${threads[*]} threads at avx2, by g++ (Release) and clang (Checked); the hash is that of all"
-        echo "frames. Fuzz programs: $inputs inputs each."
+        echo "frames. Fuzz programs: $inputs inputs each. checked plays the long run; clang and asan leave out what plays by"
+        echo "the hundred, release plays what compares bytes or counts allocations, tsan what works on several threads."
         echo
         echo "Machine: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) hardware threads;" \
             "$(g++ --version | head -1); $(clang++ --version | head -1)."
         echo
         echo "| part | result | commit | date | seconds |"
         echo "|---|---|---|---|---|"
-        for name in "${presets[@]}" "${scenes[@]}" "${formats[@]/#/fuzz_}" soak packages; do
+        for name in "${presets[@]}" "${by_name[@]}" "${scenes[@]}" "${formats[@]/#/fuzz_}" soak packages; do
             grep "^| $name |" <<<"$rows"
         done
     } >"$page.new"
@@ -82,16 +85,28 @@ write_row() {
 }
 
 build() {
-    cmake --preset "$1" && cmake --build --preset "$1"
+    cmake --preset "$1" && cmake --build --preset "$1" "${@:2}"
 }
+# What plays by the hundred what others play once: nothing new for a sanitizer.
+by_the_hundred='^(bearing|closing_loads|crushing|cut_coarse|declared_writes|demolition|flight|grinding|hits|inner_edges|inner_edges_break|laid_loads|limits|loads|pressed_debris|quick_breaks|quick_thresholds|random_breaks|random_hits|real_solids|reproduce|rigid_pile|settling|siblings|squeezed|static_sides|thresholds)_test$'
+# What compares bytes, counts what is asked for, or is somebody else's program: what a build without assertions may do otherwise.
+without_assertions='^(allocations|host_physics|recording|scenes|script|simd_levels|small_stack|snapshot|soak|world_hash)_test$|_example$|^frames_are_small$|_of_a_step$'
+# What more than one thread works at.
+with_threads='^(ahead|cook_on_threads|frame_plan|halves|host|host_physics|inner_loop|jobs|layers|paired_world|profiler|quick_world|query|recording|rigid_threads|scenes|slicing|solid_world|metal_world|strikers|table|world_hash|world_life|world_view)_test$|^hosted_example$'
 # What follows prints its result, the second column of the page, as its last line.
 preset_part() {
-    local long_run=()
-    build "$1" || return 1
+    local long_run=() which=("${tests[@]}") targets=() before
     # The long plays once; builds that are ten times slower play the scenes for fewer frames.
-    [[ $1 == checked ]] && long_run+=(CULLET_ALL_TESTS=1)
-    [[ $1 == debug || $1 == asan || $1 == tsan ]] && long_run+=(CULLET_SCENE_FRAMES=60)
-    local before which=("${tests[@]}")
+    case $1 in
+    checked) long_run=(CULLET_ALL_TESTS=1) ;;
+    release) which+=(-R "$without_assertions") ;;
+    clang) which+=(-E "$by_the_hundred") ;;
+    asan | debug) long_run=(CULLET_SCENE_FRAMES=30) which+=(-E "$by_the_hundred") ;;
+    tsan) long_run=(CULLET_SCENE_FRAMES=30) which+=(-R "$with_threads") ;;
+    esac
+    cmake --preset "$1" || return 1
+    mapfile -t targets < <(ctest --test-dir "build/$1" -N "${which[@]}" | grep -oE '[a-z_]+_(test|example|step)$')
+    build "$1" --target sample_game cullet_import "${targets[@]}" || return 1
     before=$(row_of "$1" | awk -F' *[|] *' '/FAILED/ { print $3 " at " $4 }')
     if $failed_only && [[ -n $before ]]; then
         which=(--rerun-failed)
@@ -158,7 +173,7 @@ for part in "${parts[@]}"; do
         echo "$part: done before"
         continue
     fi
-    if among "$part" "${presets[@]}"; then
+    if among "$part" "${presets[@]}" "${by_name[@]}"; then
         run=(preset_part "$part")
     elif among "$part" "${scenes[@]}"; then
         run=(scene_part "$part")
@@ -169,7 +184,7 @@ for part in "${parts[@]}"; do
     elif [[ $part == packages ]]; then
         run=(packages_part)
     else
-        echo "There is no part '$part'; there are ${presets[*]} ${scenes[*]} ${formats[*]/#/fuzz_} soak packages." >&2
+        echo "There is no part '$part'; there are ${presets[*]} ${by_name[*]} ${scenes[*]} ${formats[*]/#/fuzz_} soak packages." >&2
         exit 2
     fi
     printf '%s ... ' "$part"
