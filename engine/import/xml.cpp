@@ -32,13 +32,13 @@ struct XmlCalls {
         }
     }
     static void begin(void* user, const char* name, const char** attributes) {
-        guarded(user, [&](XmlListener& listener) { listener.begin(name, attributes); });
+        guarded(user, [&](XmlListener& heard) { heard.begin(name, attributes); });
     }
     static void end(void* user, const char* name) {
-        guarded(user, [&](XmlListener& listener) { listener.end(name); });
+        guarded(user, [&](XmlListener& heard) { heard.end(name); });
     }
     static void text(void* user, const char* text, int size) {
-        guarded(user, [&](XmlListener& listener) { listener.text({text, static_cast<size_t>(size)}); });
+        guarded(user, [&](XmlListener& heard) { heard.text({text, static_cast<size_t>(size)}); });
     }
 };
 
