@@ -128,7 +128,7 @@ Result<Claim> metal_table_1(Bench&) {
                 {{"metal", "paper", "40 steps, the turn in two", "40 plain steps", "200 plain steps"}}};
     double worst = 0;
     for (const auto& [name, e] : {std::pair{"steel", 0.2}, {"aluminium", 0.15}, {"copper", 0.1}}) {
-        const auto rebound = [e](uint32_t steps, bool splits) {
+        const auto rebound = [e = e](uint32_t steps, bool splits) {
             PenaltyContact contact;
             contact.speed = 5, contact.recede = e * e, contact.steps = steps, contact.splits_turn = splits;
             return press(contact).rebound / 5;
