@@ -73,7 +73,7 @@ double radius_for_contact(const SheetMetal& metal, double support, double work, 
     double low = 1.01 * contact, high = 40 * contact;
     for (int k = 0; k < 60; ++k) {
         const double r = 0.5 * (low + high);
-        (plan_sheet(metal, {r, support, work, 0}).contact < contact ? low : high) = r;
+        (plan_sheet(metal, {r, support, work, 0, true}).contact < contact ? low : high) = r;
     }
     return 0.5 * (low + high);
 }

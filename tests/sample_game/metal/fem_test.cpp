@@ -8,6 +8,7 @@
 
 #include "sample_game/metal/fem_wanted.hpp"
 #include "sample_game/metal/metal_car.hpp"
+#include "tests/support/places.hpp"
 
 namespace cullet {
 namespace {
@@ -94,6 +95,34 @@ TEST(Fem, DentsOfTheReferenceAreOursWhateverTheMeshAndTheSubShells) {
             least = std::min(least, m.b), most = std::max(most, m.b);
         }
         EXPECT_LT(most - least, 0.03) << name;
+    }
+}
+
+// What the reference does not have: thick sheets, wide contacts, another span. Curves of scripts/fem.sh.
+TEST(Fem, DentsOfThickSheetsWideContactsAndOtherSpansAreOurs) {
+    struct Row {
+        const char* curve;
+        FemCase of;
+    };
+    std::vector<Row> rows{{"sheet_of_2_mm", {}},
+                          {"patch_of_20_cm", {}},
+                          {"sheet_of_2_mm_patch_of_20_cm", {}},
+                          {"aluminium_patch_of_20_cm", {}},
+                          {"sheet_of_80_by_60_cm", {}}};
+    rows[0].of.thickness = rows[2].of.thickness = 2e-3;
+    rows[1].of.patch = rows[2].of.patch = rows[3].of.patch = 0.2;
+    rows[3].of.material = "aluminium", rows[3].of.yield_stress = 240e6;
+    rows[4].of.width = 0.8, rows[4].of.height = 0.6;
+    for (const Row& row : rows) {
+        const fs::path file = fs::path(source_folder()) / "tests/cases/fem" / (std::string(row.curve) + ".txt");
+        const Result<FemCurve> curve = read_fem_curve(file.string());
+        ASSERT_TRUE(curve.ok()) << curve.error();
+        FemBlow blow;
+        blow.work = curve->work;
+        const Result<FemDent> dent = dent_of(row.of, blow);
+        ASSERT_TRUE(dent.ok()) << dent.error();
+        for (const Verdict& v : fem_verdicts(compare_with_fem(dent->line, *curve), blow.work))
+            EXPECT_TRUE(v.is_met()) << row.curve << ", " << v.what << ": " << v.value;
     }
 }
 

@@ -94,7 +94,7 @@ double left_at_tear(const MetalView& metal, const Striker& striker, const SheetP
     SheetMetal sheet = sheet_metal(metal);
     const double own = double{metal.shells().tear_strain[metal.row]};
     sheet.break_strain = own > 0 ? own : kTears * sheet.break_strain;
-    return plan_sheet(sheet, {striker.radius, place.support, energy, place.dent_depth}).left;
+    return plan_sheet(sheet, blow_at(place, striker, energy)).left;
 }
 
 Dent dent_sheet(const MetalView& metal, const Striker& striker, const SheetPlace& place, const SheetPlan& plan,
@@ -176,7 +176,7 @@ bool is_elastic(const MetalView& metal, const Striker& striker, double energy) {
         metal.vertices().start.set(metal.vertex(v), metal.shell.state.vertices.rest[metal.shell.vertex(v)]);
     const Striker ball = along_dent(metal, round_striker(metal, striker));
     const SheetPlace place = find_sheet_place(metal, ball);
-    return !plan_sheet(sheet_metal(metal), {ball.radius, place.support, energy, place.dent_depth}).is_dent();
+    return !plan_sheet(sheet_metal(metal), blow_at(place, ball, energy)).is_dent();
 }
 
 Dent work_dent(const MetalView& metal, const Striker& striker, double energy, bool goes_on) {
@@ -186,7 +186,7 @@ Dent work_dent(const MetalView& metal, const Striker& striker, double energy, bo
         return crush_body(metal, striker, energy);
     const Striker ball = along_dent(metal, round_striker(metal, striker));
     const SheetPlace place = find_sheet_place(metal, ball);
-    const SheetPlan plan = plan_sheet(sheet_metal(metal), {ball.radius, place.support, energy, place.dent_depth});
+    const SheetPlan plan = plan_sheet(sheet_metal(metal), blow_at(place, ball, energy));
     if (!plan.is_dent()) {
         Dent none;
         none.restitution = kMostBounce;

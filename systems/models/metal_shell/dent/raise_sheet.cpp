@@ -50,6 +50,7 @@ SheetPlace find_sheet_place(const MetalView& metal, const Striker& striker) {
             place.support = std::min(place.support, length(Vec3d(vertices.original[metal.vertex(c)]) - middle));
     }
     place.support = std::max(place.support, double{metal.shells().mean_edge[metal.row]});
+    place.is_clamped = double{vertices.pin_distance[row]} <= place.support && place.support > 0;
     return place;
 }
 
@@ -62,9 +63,7 @@ class Sag {
     Sag(const MetalView& metal, const SheetPlace& place, const SheetPlan& plan)
         : from_(kSagFrom * place.support), to_(kSagTo * place.support) {
         const double h = double{metal.shell.shells().thickness[metal.shell.row]};
-        const bool is_by_pins =
-            double{metal.vertices().pin_distance[metal.vertex(place.vertex)]} <= place.support && place.support > 0;
-        if (is_by_pins) most_ = kSag * plan.contact * h / place.support * plan.rim / (plan.rim + kSagRims * h);
+        if (place.is_clamped) most_ = kSag * plan.contact * h / place.support * plan.rim / (plan.rim + kSagRims * h);
     }
     /// Where it ends, m.
     double end() const { return most_ > 0 ? to_ : 0; }

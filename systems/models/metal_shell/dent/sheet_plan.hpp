@@ -17,6 +17,7 @@ struct SheetBlow {
     double support = 0;         // R_b, m: to what holds the sheet
     double energy = 0;          // W, J
     double depth_before = 0;    // w_before, m: of the dent that is there already
+    bool is_clamped = false;    // by pins, not by folds, and not by its own stiffness alone
 };
 
 /// All zero: the blow is elastic.
@@ -33,8 +34,8 @@ struct SheetPlan {
 
 /// Radii follow from the depth by fixed-point rounds, the depth from the energy by bisection.
 SheetPlan plan_sheet(const SheetMetal& metal, const SheetBlow& blow);
-/// J below which nothing stays: need(0+).
-double elastic_energy(const SheetMetal& metal, double striker_radius, double support);
+/// J below which nothing stays: need(0+). Of the blow's energy and depth it takes no notice.
+double elastic_energy(const SheetMetal& metal, const SheetBlow& blow);
 
 /// How deep the planned dent is at a distance from its axis, m. Rounded where it ends, at twice the reach.
 double profile(const SheetPlan& plan, double striker_radius, double distance);

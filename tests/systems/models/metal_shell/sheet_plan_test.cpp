@@ -32,7 +32,7 @@ TEST(SheetPlan, TheSameEnergyInPartsGivesTheSameDent) {
 }
 
 TEST(SheetPlan, BelowItsElasticEnergyNothingStays) {
-    const double elastic = elastic_energy({}, kRadius, kSupport);
+    const double elastic = elastic_energy({}, {kRadius, kSupport});
     EXPECT_GT(elastic, 1);
     EXPECT_LT(elastic, 10);
     EXPECT_FALSE(plan_sheet({}, {kRadius, kSupport, 0.99 * elastic, 0}).is_dent());
@@ -67,6 +67,35 @@ TEST(SheetPlan, AWidePanelBouncesALightBlowAndTakesAHardOne) {
                  fast = plan_sheet({}, {kRadius, kSupport, 5000, 0}).restitution;
     EXPECT_GT(slow, 0.5);
     EXPECT_LT(fast, 0.35);
+}
+
+TEST(SheetPlan, TheNotesBallDentsAClampedPanelAsOneThatIsHeldOtherwise) {
+    for (const double energy : {48.0, 192.0, 1200.0, 4800.0}) {
+        const double held = plan_sheet({}, {kRadius, kSupport, energy, 0, false}).depth;
+        EXPECT_NEAR(plan_sheet({}, {kRadius, kSupport, energy, 0, true}).depth, held, 0.003 * held) << energy;
+    }
+}
+
+// What springs back is the span's, be the contact wide or narrow: so a blunt ball dents deeper than it would by the
+// note's term, a sharp one less.
+TEST(SheetPlan, ABluntBallDentsAClampedPanelDeeperASharpOneLess) {
+    const auto share = [](double radius, double thickness) {
+        SheetMetal metal;
+        metal.thickness = thickness;
+        const double energy = 260e3 * thickness;
+        return plan_sheet(metal, {radius, kSupport, energy, 0, true}).depth /
+               plan_sheet(metal, {radius, kSupport, energy, 0, false}).depth;
+    };
+    double last = share(0.03, 1e-3);
+    EXPECT_LT(last, 0.98);
+    for (double radius = 0.03; radius < 2; radius *= 1.05) {
+        EXPECT_GE(share(radius, 1e-3), last - 1e-6) << radius;
+        last = share(radius, 1e-3);
+    }
+    EXPECT_GT(last, 1.1);
+    // Bending keeps more of a thick sheet's dome.
+    for (const double thickness : {1e-3, 1.5e-3, 2e-3, 3e-3})
+        EXPECT_GT(share(0.3, thickness + 0.5e-3), share(0.3, thickness)) << thickness;
 }
 
 }  // namespace
