@@ -101,7 +101,7 @@ TEST(StopApproach, WhatSlidesOpensBySixTenthsOfWhatItSlidesAndLosesEnergy) {
 }
 
 TEST(StopApproach, RandomHeapsKeepMomentumAndAngularMomentumLoseEnergyAndHardlyCloseAnyMore) {
-    const Random random{{4}};
+    const Random random{4};
     for (uint64_t heap = 0; heap < 200; ++heap) {
         uint64_t count = 0;
         const auto draw = [&](double low, double high) { return low + (high - low) * random.uniform(heap, count++); };
