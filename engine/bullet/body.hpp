@@ -69,6 +69,7 @@ struct Body {
     Box local_box = empty_box();       // of the points with margins, hull frame
     float thickness = 0;               // least width of a piece
     float reach = 0;                   // of the farthest point from the centre of mass, at least
+    float scale = 1;                   // of its thinnest piece, see lengths.hpp
 
     btTransform fresh_at;  // the hull frame's transform that world points stand for
     uint32_t moves = 0;    // counts changes of world points; pairs of unmoved bodies keep their contacts
@@ -118,9 +119,12 @@ inline bool is_ball(const Body& body) {
     return body.hull_count == 1 && body.hulls->point_count == 1;
 }
 
-/// Of its thinnest piece, see lengths.hpp.
+/// Of its margin and width, whenever one of them is new: each contact asks for it.
+inline void set_scale(Body& body) {
+    body.scale = scale_of_width(body.margin, body.thickness, is_ball(body));
+}
 inline float scale_of(const Body& body) {
-    return scale_of_width(body.margin, body.thickness, is_ball(body));
+    return body.scale;
 }
 inline float scale_of(const Body& a, const Body& b) {
     return std::min(scale_of(a), scale_of(b));

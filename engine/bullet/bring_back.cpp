@@ -33,6 +33,17 @@ Box way_box(const Body& body, const btTransform& hulls_now) {
     return box;
 }
 
+// Holds way_box(), for a third of its cost: most of a heap is near no sheet.
+Box box_about_way(const Body& body, const btTransform& hulls_now) {
+    const Vec3 middle = from_bullet(hulls_now * to_bullet(0.5f * (body.local_box.low + body.local_box.high))),
+               rounding = 1e-5f * Vec3{std::fabs(middle.x), std::fabs(middle.y), std::fabs(middle.z)};
+    const float far = 0.5001f * length(body.local_box.high - body.local_box.low);
+    const Vec3 half = rounding + Vec3{far, far, far};
+    Box box = body.shape.box;
+    include(box, middle - half), include(box, middle + half);
+    return box;
+}
+
 bool has_triangles_near(const StaticMesh& mesh, const Box& box) {
     bool is_any = false;
     visit_triangles(mesh, box, [&](uint32_t) { is_any = true; });
@@ -50,6 +61,9 @@ void keep_deepest(const Crossing& found, Vec3 place, uint32_t mesh, BulletWorld:
 BulletWorld::PutThrough BulletWorld::find_put_through(const Body& body) const {
     PutThrough deepest;
     const btTransform now = body.hulls_at(body.bullet->getWorldTransform());
+    bool is_near = false;
+    visit_meshes(body, box_about_way(body, now), [&](const Body&) { is_near = true; });
+    if (!is_near) return deepest;
     const Mat3 rotation = rotation_of(now), stood = rotation_of(body.fresh_at);
     const Vec3 origin = from_bullet(now.getOrigin()), stood_at = from_bullet(body.fresh_at.getOrigin());
     const Box box = way_box(body, now);

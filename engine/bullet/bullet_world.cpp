@@ -305,6 +305,7 @@ void BulletWorld::bound_pieces(Body& body) {
         body.reach = std::max(body.reach, reach);
         body.thickness = std::min(body.thickness, hull->thickness);
     }
+    set_scale(body);
     ++body.shape_changes;
 }
 
@@ -340,6 +341,7 @@ void BulletWorld::measure_body(Body& body) {
         body.reach = std::max(body.reach, std::sqrt(square) + hull->margin);
         body.thickness = std::min(body.thickness, hull->thickness);
     }
+    set_scale(body);
     ++body.shape_changes;
 }
 
@@ -369,6 +371,7 @@ void BulletWorld::make_bullet(Body& body, const btTransform& at) {
 
 void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mask) {
     make_bullet(body, to_bullet(at, body.frame));
+    set_scale(body);
     body.is_used = true;
     body.is_held = body.is_soft = false;
     body.is_fast = false;

@@ -84,6 +84,7 @@ CULLET_LANES_INLINE Sliding against_sliding(const PointRows& p, Lanes limit, con
     const Lanes mass = least(row_0.mass, row_1.mass), most_squared = limit * limit;
     Sliding to{row_0.impulse + row_0.mass * missing_0, row_1.impulse + row_1.mass * missing_1};
     const auto goes_on = to.squared() > most_squared;
+    if (!is_any(goes_on)) return to;  // a root and a quotient less where everything sticks, as in most of a heap
     to.way[0] = goes_on ? row_0.impulse + mass * missing_0 : to.way[0];
     to.way[1] = goes_on ? row_1.impulse + mass * missing_1 : to.way[1];
     const Lanes squared = to.squared();

@@ -68,6 +68,10 @@ void set_local_box(Hull& hull) {
     hull.local_box = grown(box, hull.margin);
 }
 
+void set_scale(Hull& hull) {
+    hull.scale = hull.one_sided ? 1 : scale_of_width(hull.margin, hull.thickness, hull.point_count == 1);
+}
+
 namespace {
 
 void set_hull_points(Hull& hull, std::span<const Vec3> points, float margin, uint32_t cell) {
@@ -84,6 +88,7 @@ void set_hull_points(Hull& hull, std::span<const Vec3> points, float margin, uin
     for (uint32_t k = 0; k < hull.point_count; ++k) square = std::max(square, dot(hull.local[k], hull.local[k]));
     hull.radius = std::sqrt(square);
     hull.thickness = 2 * (hull.radius + margin);
+    set_scale(hull);
 }
 
 // Of a hull that was seen in other axes before: heights change with the centre alone, which moved by `shift` (new
@@ -102,6 +107,7 @@ void set_heights(Hull& hull) {
         const float width = heights.high - heights.low + 2 * hull.margin;
         if (dot(hull.face_normal[f], hull.face_normal[f]) > 0.5f) hull.thickness = std::min(hull.thickness, width);
     }
+    set_scale(hull);
 }
 
 }  // namespace
@@ -176,6 +182,7 @@ void build_hull_like(Hull& hull, const Hull& like, const Mat3& turn, std::span<c
     hull.face_count = faces;
     hull.edge_count = edges;
     hull.thickness = width + 2 * margin;
+    set_scale(hull);
     turn_faces(hull, turn, first - hull.local[0]);
     find_box(hull);
 }
@@ -214,6 +221,7 @@ void turn_hull(Hull& hull, const Mat3& r, Vec3 origin, float margin, uint32_t ce
     hull.local_box = grown({centre + box.low, centre + box.high}, margin);
     hull.thickness += 2 * (margin - hull.margin);
     hull.margin = margin;
+    set_scale(hull);
     hull.cell = cell;
     turn_faces(hull, r, shift);
     find_box(hull);
@@ -223,6 +231,7 @@ void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell, bool is
     hull.cell = cell;
     hull.margin = 0;
     hull.one_sided = true;
+    set_scale(hull);
     hull.is_turned = is_turned;
     hull.is_box = false;
     hull.point_count = 3;

@@ -59,6 +59,8 @@ struct Hull {
     float margin = 0;
     float radius = 0;        // of the points about their centre, without the margin
     float thickness = 0;     // the least width over its face normals, with both margins; a sphere's diameter
+    float scale = 1;         // see lengths.hpp
+    uint64_t flush = 0;      // faces, as bits, that go on in the plane of a face of a piece beside this one
     bool one_sided = false;  // a static triangle: only the face that it is built with pushes
     bool is_turned = false;  // that is its back
     bool has_seams = false;  // what others cover of it is known, see seams.hpp
@@ -75,16 +77,14 @@ struct Hull {
     // others cover, see mark_covered().
     bool is_face_inner[kMaxFaces];
     uint64_t covered[kMaxFaces];
-    uint64_t flush = 0;  // faces, as bits, that go on in the plane of a face of a piece beside this one
     uint16_t first_corner[kMaxFaces + 1];
     uint8_t corner[kMaxCorners];
     uint32_t face_points[kMaxFaces];  // its corners as bits, by point
     HullEdge edge[kMaxEdges];
 };
 
-/// See lengths.hpp; a static triangle is as good as thick.
 inline float scale_of(const Hull& hull) {
-    return hull.one_sided ? 1 : scale_of_width(hull.margin, hull.thickness, hull.point_count == 1);
+    return hull.scale;
 }
 inline float scale_of(const Hull& a, const Hull& b) {
     return std::min(scale_of(a), scale_of(b));
@@ -110,6 +110,8 @@ void find_box(Hull& hull);
 void set_face_points(Hull& hull);
 /// Of its local points.
 void set_local_box(Hull& hull);
+/// Of its margin and width; a static triangle is as good as thick. Contacts ask for it a dozen times each.
+void set_scale(Hull& hull);
 /// Marks what another piece of the same body covers of the faces of `hull`, and which lie in one plane with faces of a
 /// piece that covers any: places just outside of their corners, of the middles of their edges, and of their own middle.
 /// With `is_whole` a face is inner when all of them are covered, by whomever; else, once `other` covers one place, of

@@ -33,6 +33,10 @@ CULLET_LANES_INLINE Lanes most(Lanes a, Lanes b) {
 CULLET_LANES_INLINE Lanes root(Lanes a) {
     return _mm_sqrt_ps(a);
 }
+typedef int LaneMask __attribute__((vector_size(16)));  // of a comparison: all bits of a lane, or none
+CULLET_LANES_INLINE bool is_any(LaneMask mask) {
+    return _mm_movemask_ps(reinterpret_cast<__m128>(mask)) != 0;
+}
 
 struct LaneVec {
     Lanes x{}, y{}, z{};

@@ -131,7 +131,7 @@ void flow_hull(F& f, Hull& h, ByteReader* in) {
     }
     if constexpr (F::kReads)
         if (in->expect(is_sound, "a corner or an edge of a hull names a point or a face that it does not have"))
-            set_face_points(h), find_box(h);
+            set_face_points(h), find_box(h), set_scale(h);
 }
 
 template <class F>
@@ -405,6 +405,7 @@ bool BulletWorld::load_body(ByteReader& in, Body& body) {
         hull->ordinal = body.hull_count++;
         lacks_seams = lacks_seams || !hull->has_seams;
     }
+    set_scale(body);
     if (lacks_seams && in.is_sound()) put_off_seams(body);
     bool has_mesh = false;
     f.flag(has_mesh);
