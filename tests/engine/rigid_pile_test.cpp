@@ -114,7 +114,8 @@ Heap drop_heap(uint32_t seed) {
     measure_depths(*world, heap);
     std::printf("seed %u: asleep %u of %u, moved %u; overlap 95 %% %.2f mm, worst %.2f mm, floor %.2f mm; J/kg", seed,
                 heap.asleep, kShards, heap.moved, 1000 * heap.depth_95, 1000 * heap.depth_most, 1000 * heap.floor_most);
-    for (const Window& w : heap.windows) std::printf(w.most > 0 ? " %.2g" : "", w.most);
+    for (const Window& w : heap.windows)
+        if (w.most > 0) std::printf(" %.2g", w.most);
     std::printf("\n");
     return heap;
 }

@@ -231,7 +231,8 @@ const Settling& settled(const Case& c) {
 // Nothing is hit, so nothing may gain speed but by falling: a piece that stands on its edge tips over.
 void expect_only_losses(const Settling& s) {
     const std::vector<Window> windows = windows_after_last_hit(s.moments);
-    for (const Window& w : windows) std::printf(w.most > 0 ? "  %.3g" : "", w.most);
+    for (const Window& w : windows)
+        if (w.most > 0) std::printf("  %.3g", w.most);
     std::printf(" J in windows of %u frames\n", kWindow);
     EXPECT_GE(windows.size(), 4u) << "what is hit to the end shows nothing";
     for (size_t k = 1; k < windows.size(); ++k) {
