@@ -102,9 +102,12 @@ Result<void> validate_positions(const Mesh& mesh, const std::string& name) {
     for (size_t v = 0; v < mesh.positions.size(); ++v) {
         const Vec3 p = mesh.positions[v];
         if (!is_coordinate(p.x) || !is_coordinate(p.y) || !is_coordinate(p.z))
-            return Error{name + ": vertex " + text(v) + " stands at (" + text(p.x) + ", " + text(p.y) + ", " +
-                         text(p.z) + "), not within " + text(kLargestCoordinate) +
-                         " m of the origin. Repair or scale the model."};
+            return Error{
+                name + ": vertex " + text(v) + " stands at (" + text(p.x) + ", " + text(p.y) + ", " + text(p.z) +
+                "), " +
+                (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)
+                     ? "not within " + text(kLargestCoordinate) + " m of the origin. Repair or scale the model."
+                     : "which is no place. Repair the model.")};
         low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y), std::fmin(low.z, p.z)};
         high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y), std::fmax(high.z, p.z)};
     }

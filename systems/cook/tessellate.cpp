@@ -43,7 +43,7 @@ class Tessellator {
                 return Error{"tessellate: edges of at most " + std::to_string(settings_.longest_edge) +
                              " m would make mesh \"" + mesh_.name + "\" larger than " +
                              std::to_string(settings_.most_triangles) +
-                             " triangles; raise longest_edge or most_triangles."};
+                             " triangles; raise longest_edge (--edge-m)."};
             split(edge, found->second);
         }
         return std::move(mesh_);
