@@ -69,8 +69,9 @@ write_row() {
         echo
         echo "Written by \`scripts/test.sh --all\`; do not edit. The scenes: $frames frames each, on one thread with kernels at"
         echo "${levels[*]}, on ${threads[*]} threads at avx2, by g++ (Release) and clang (Checked); the hash is that of all"
-        echo "frames. Fuzz programs: $inputs inputs each. checked plays the long run; clang and asan leave out what plays by"
-        echo "the hundred, release plays what compares bytes or counts allocations, tsan what works on several threads."
+        echo "frames. Fuzz programs: $inputs inputs each. checked plays the long run; clang leaves out what plays by the"
+        echo "hundred, release plays what compares bytes or counts allocations, asan whole worlds and what reads files, tsan what"
+        echo "works on several threads."
         echo
         echo "Machine: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) hardware threads;" \
             "$(g++ --version | head -1); $(clang++ --version | head -1)."
@@ -91,6 +92,8 @@ build() {
 by_the_hundred='^(bearing|closing_loads|crushing|cut_coarse|declared_writes|demolition|flight|grinding|hits|inner_edges|inner_edges_break|laid_loads|limits|loads|pressed_debris|quick_breaks|quick_thresholds|random_breaks|random_hits|real_solids|reproduce|rigid_pile|settling|siblings|squeezed|static_sides|thresholds)_test$'
 # What compares bytes, counts what is asked for, or is somebody else's program: what a build without assertions may do otherwise.
 without_assertions='^(allocations|host_physics|recording|scenes|script|simd_levels|small_stack|snapshot|soak|world_hash)_test$|_example$|^frames_are_small$|_of_a_step$'
+# Whole worlds, what keeps them and what reads files of others: where memory is taken, given back and aimed into.
+with_memory="^($(basename -s .cpp tests/engine/import/*_test.cpp tests/systems/api/*_test.cpp | paste -sd'|')|arena_test|table_test|range_pool_test|scratch_test|mesh_file_test|import_test|rigid_world_test|rigid_save_test|fuzz_corpus_test|halves_test|cut_test|cut_pins_test|births_test|soft_bodies_test|quick_world_test|metal_world_test|tear_test|solid_world_test|cook_solid_test|crack_faces_test|scenes_test|script_test|small_stack_test|world_calls_test|world_life_test|world_input_test)\$"
 # What more than one thread works at.
 with_threads='^(ahead|cook_on_threads|frame_plan|halves|host|host_physics|inner_loop|jobs|layers|paired_world|profiler|quick_world|query|recording|rigid_threads|scenes|slicing|solid_world|metal_world|strikers|table|world_hash|world_life|world_view)_test$|^hosted_example$'
 # What follows prints its result, the second column of the page, as its last line.
@@ -101,7 +104,8 @@ preset_part() {
     checked) long_run=(CULLET_ALL_TESTS=1) ;;
     release) which+=(-R "$without_assertions") ;;
     clang) which+=(-E "$by_the_hundred") ;;
-    asan | debug) long_run=(CULLET_SCENE_FRAMES=30) which+=(-E "$by_the_hundred") ;;
+    debug) long_run=(CULLET_SCENE_FRAMES=30) which+=(-E "$by_the_hundred") ;;
+    asan) long_run=(CULLET_SCENE_FRAMES=30) which+=(-R "$with_memory") ;;
     tsan) long_run=(CULLET_SCENE_FRAMES=30) which+=(-R "$with_threads") ;;
     esac
     cmake --preset "$1" || return 1
