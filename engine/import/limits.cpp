@@ -33,6 +33,15 @@ bool limit(__rlimit_resource resource, rlim_t value) {
     return limit(resource, value, value);
 }
 
+/// Gives the stack what reading takes before memory is limited: afterwards it might find no room to grow, which is a
+/// crash and no exception.
+[[gnu::noinline]] void grow_stack() {  // within its caller it would lie above what is called next
+    constexpr size_t kStack = 1u << 20, kPage = 4096;
+    char stack[kStack];
+    volatile char* const page = stack;
+    for (size_t i = 0; i < kStack; i += kPage) page[i] = 0;
+}
+
 /// What is in the way, with what to do; "" when the limits stand. A kernel without filters of system calls leaves the
 /// rlimits, which is what older systems had; where it has them and they cannot be set, nothing is read. A sanitized
 /// build keeps to the processor time alone.
@@ -40,6 +49,8 @@ std::string limit_this_process(const ImportLimits& limits) {
     constexpr const char* kNoLimits =
         "the limits of the import process cannot be set. Lower --memory-mib or --seconds.";
     if (kIsSanitized) return limit(RLIMIT_CPU, 10 * limits.seconds, 10 * limits.seconds + 1) ? "" : kNoLimits;
+    const SystemCallFilter filter;
+    grow_stack();
     const rlim_t bytes = static_cast<rlim_t>(limits.memory_mib) << 20;
     const bool limited = limit(RLIMIT_CORE, 0) && limit(RLIMIT_AS, bytes) && limit(RLIMIT_FSIZE, bytes) &&
                          limit(RLIMIT_CPU, limits.seconds, limits.seconds + 1) && limit(RLIMIT_NOFILE, 64);
@@ -47,7 +58,7 @@ std::string limit_this_process(const ImportLimits& limits) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     ::prctl(PR_SET_DUMPABLE, 0);
-    if (!forbid_system_calls() && has_filters_of_system_calls())
+    if (!filter.apply() && has_filters_of_system_calls())
         return "the system calls of the import process cannot be limited, so nothing is read. Run it where a process "
                "may set a seccomp filter.";
     return limited ? "" : kNoLimits;

@@ -1,8 +1,11 @@
 #include "engine/import/system_calls.hpp"
 
 #include <fcntl.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
 #include <seccomp.h>
 #include <sys/ioctl.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
@@ -47,11 +50,21 @@ class Filter {
  public:
     Filter() : context_(seccomp_init(SCMP_ACT_ERRNO(EPERM)), seccomp_release) {}
 
-    /// Also when the call is made with the numbers of another machine (32 bits, x32): that ends the process.
-    bool load() {
+    /// As a program for the kernel; empty where it could not be made. Also when the call is made with the numbers of
+    /// another machine (32 bits, x32): that ends the process.
+    std::vector<sock_filter> program() {
         bool is_good = is_good_ && context_ != nullptr;
         is_good = is_good && seccomp_attr_set(context_.get(), SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS) == 0;
-        return is_good && seccomp_load(context_.get()) == 0;
+        const int file = is_good ? ::memfd_create("filter", MFD_CLOEXEC) : -1;
+        if (file < 0) return {};
+        std::vector<sock_filter> program;
+        if (seccomp_export_bpf(context_.get(), file) == 0) {
+            program.resize(static_cast<size_t>(::lseek(file, 0, SEEK_CUR)) / sizeof(sock_filter));
+            const size_t size = program.size() * sizeof(sock_filter);
+            if (::pread(file, program.data(), size, 0) != static_cast<ssize_t>(size)) program.clear();
+        }
+        ::close(file);
+        return program;
     }
 
     /// Allowed when all conditions hold. Several of the same call: when one of them does.
@@ -80,7 +93,7 @@ constexpr uint64_t kWord = 0xFFFFFFFFu, kPointer = ~uint64_t{0};
 
 }  // namespace
 
-bool forbid_system_calls() {
+SystemCallFilter::SystemCallFilter() {
     constexpr uint64_t writing = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC;
     Filter filter;
     filter.allow(SCMP_SYS(open), {argument(1, writing, 0)});
@@ -94,7 +107,15 @@ bool forbid_system_calls() {
     filter.allow(SCMP_SYS(ioctl), {argument(1, kWord, TCGETS)});  // isatty; not TIOCSTI, which types into the terminal
     for (const int call : kAllowedCalls) filter.allow(call);
     for (int call = kFirstNewCall; call <= kLastNewCall; ++call) filter.deny_existence(call);
-    return filter.load();
+    program_ = filter.program();
+}
+
+SystemCallFilter::~SystemCallFilter() = default;
+
+bool SystemCallFilter::apply() const {
+    if (program_.empty()) return false;
+    const sock_fprog program{static_cast<unsigned short>(program_.size()), const_cast<sock_filter*>(program_.data())};
+    return ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
 bool has_filters_of_system_calls() {
