@@ -108,8 +108,14 @@ struct Opener {
     Blows& blows = o.opening.blows;
     uint64_t cut_units = 0;  // of the cuts that this step makes
 
+    /// A solid is parted step by step, as it breaks.
+    bool is_parted(uint32_t row) const {
+        return is_kind(blows, row, BlowKind::Cut) &&
+               !is_shell(state.structures, state.bodies.structure[blows.body[row]]);
+    }
     /// Cuts are made whole, in the step that opens their task: at least one, then as long as the frame's units last.
     bool may_cut(uint32_t row) {
+        if (is_parted(row)) return true;
         const Row<Structures> structure = state.bodies.structure[blows.body[row]];
         const uint64_t units = state.shells.vertices[state.shell_of(structure)].count * kUnitsOpen +
                                units_of_cut(state.shells, state.shell_of(structure), blows, row);
@@ -180,13 +186,15 @@ struct Opener {
                 return Outcome::Joined;
             }
         } else if (!state.bodies.hold_count[body] && o.opening.frame >= state.bodies.retry_frame[body] &&
-                   has_free_task(state.tasks) && (!is_cut || may_cut(row))) {
+                   has_free_task(state.tasks) && (!is_cut || may_cut(row)) &&
+                   !(is_parted(row) && waits_for_room(state, body))) {
             const Row<Tasks> task = o.opening.open(body, is_cut ? 1.0f : blows.speed[row]);
             if (!task.exists()) {
                 pay(row);
                 return o.opening.models.may_find_room(state, body) ? Outcome::Waits : Outcome::Gone;
             }
-            state.tasks.is_late[task] = !is_cut && blows.is_paid[row];
+            // What presses on a solid does not wait until it is parted.
+            state.tasks.is_late[task] = is_parted(row) || (!is_cut && blows.is_paid[row]);
             join(row, task);
             return Outcome::Joined;
         }

@@ -128,9 +128,12 @@ bool open_snap(Opening& opening, uint32_t q, Events<ImpactEvent>& impact_events)
     auto& state = opening.state;
     const QueuedHits& queued = opening.queued;
     const Row<Bodies> body = queued.body[q];
-    if (!snap(opening.blows, state, state.bodies, body, queued.point[q], queued.normal[q],
-              queued.frame[q] * 0x10001 + body.index))
-        return false;
+    const uint64_t seed = queued.frame[q] * 0x10001 + body.index;
+    const Vec3 place = queued.point[q], normal = queued.normal[q];
+    const bool is_asked = is_shell(state.structures, state.bodies.structure[body])
+                              ? snap(opening.blows, state, state.bodies, body, place, normal, seed)
+                              : snap_solid(opening.blows, state, state.bodies, body, place, normal, seed);
+    if (!is_asked) return false;
     const Pose pose = pose_of(state.bodies, body);
     ImpactEvent event = event_of(
         state.bodies,
@@ -159,6 +162,7 @@ void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& sett
         if (has_waiting_cut(opening.blows, body)) continue;
         // Older bumps of what presses on it would work for half a second before the load is looked at.
         if (!(queued.load[q] > 0) && has_waiting_load(queued, body)) continue;
+        if (queued.load[q] > 0 && waits_for_room(state, body)) continue;
         const bool snaps = is_snap(queued.load[q], queued.approach_speed[q]);
         // What asks for a snap has seen to it that nothing else is left.
         const auto may_break = snaps ? may_be_crushed : may_break_again;

@@ -5,6 +5,7 @@
 
 #include "engine/principal_axes.hpp"
 #include "engine/random.hpp"
+#include "systems/structures/tetrahedra/skin.hpp"
 
 namespace cullet {
 namespace {
@@ -14,20 +15,36 @@ constexpr float kStray = 0.04f, kPast = 0.25f;
 // Of the body, along the normal, that is left on either side.
 constexpr float kKept = 0.1f;
 constexpr uint32_t kFewestPoints = 2, kMostPoints = 12;
+constexpr float kAskew = 0.15f;  // of the plane through a solid, each way
 
 /// How far the body goes along a direction, from the frame's origin, m.
 struct Extent {
     float low = 1e30f, high = -1e30f;
     float size() const { return high - low; }
+    void add(float at) { low = std::min(low, at), high = std::max(high, at); }
 };
 Extent extent_along(const Vertices& vertices, Range rows, Vec3 direction) {
     Extent e;
     for (uint32_t v = rows.first; v < rows.first + rows.count; ++v) {
         if (vertices.element[v] == kNone) continue;
-        const float at = dot(direction, vertices.rest[v]);
-        e.low = std::min(e.low, at), e.high = std::max(e.high, at);
+        e.add(dot(direction, vertices.rest[v]));
     }
     return e;
+}
+
+// A row of a cut of the body, which nobody asks the game about.
+uint32_t append_cut(Blows& blows, Row<Bodies> body) {
+    const uint32_t row = blows.append(1);
+    if (row == kNone) return kNone;
+    blows.clear_rows(row, 1);
+    blows.kind[row] = static_cast<uint8_t>(BlowKind::Cut);
+    blows.body[row] = body;
+    blows.task[row] = kNone;
+    blows.is_taken[row] = 1;
+    return row;
+}
+float kept_between(const Extent& along, float at) {
+    return std::clamp(at, along.low + kKept * along.size(), along.high - kKept * along.size());
 }
 
 }  // namespace
@@ -42,19 +59,13 @@ bool snap(Blows& blows, const ShellRows& rows, const Bodies& bodies, Row<Bodies>
     const Vec3 line = cross(sweep, normal);
     const Extent along = extent_along(rows.vertices, range, normal), wide = extent_along(rows.vertices, range, line);
     if (!(along.size() > 0 && wide.size() > 0)) return false;
-    const uint32_t row = blows.append(1);
+    const uint32_t row = append_cut(blows, body);
     if (row == kNone) return false;
-    blows.clear_rows(row, 1);
-    blows.kind[row] = static_cast<uint8_t>(BlowKind::Cut);
-    blows.body[row] = body;
-    blows.task[row] = kNone;
-    blows.is_taken[row] = 1;
     blows.direction.set(row, sweep);
     const float edge = std::max(rows.shells.mean_edge[shell], 1e-3f * wide.size());
     const uint32_t points =
         std::clamp(static_cast<uint32_t>(std::ceil(wide.size() / edge)), kFewestPoints, kMostPoints);
-    const float at =
-        std::clamp(dot(normal, place), along.low + kKept * along.size(), along.high - kKept * along.size());
+    const float at = kept_between(along, dot(normal, place));
     const float stray = std::min(kStray * wide.size(), 0.5f * kKept * along.size());
     const Random random{seed};
     const auto aside = [&](uint32_t i) { return stray * static_cast<float>(2 * random.uniform(i) - 1); };
@@ -70,6 +81,24 @@ bool snap(Blows& blows, const ShellRows& rows, const Bodies& bodies, Row<Bodies>
         set_cut_point(blows, row, i,
                       (at + aside(i)) * normal + (wide.low + share * wide.size()) * line + dot(sweep, place) * sweep);
     }
+    return true;
+}
+
+bool snap_solid(Blows& blows, Read<SolidRows> rows, const Bodies& bodies, Row<Bodies> body, Vec3 place, Vec3 normal,
+                uint64_t seed) {
+    if (blows.size() >= blows.limit() / 2) return false;
+    const Random random{seed};
+    const auto aside = [&](uint32_t i) { return kAskew * static_cast<float>(2 * random.uniform(i) - 1); };
+    const Vec3 across = normalised(normal + Vec3{aside(0), aside(1), aside(2)});
+    Extent along;
+    const Range points = skin_of(rows, bodies.structure[body]).points;
+    for (uint32_t p = points.first; p < points.first + points.count; ++p)
+        along.add(dot(across, rows.skin_points.place[p].to_float()));
+    const uint32_t row = along.size() > 0 ? append_cut(blows, body) : kNone;
+    if (row == kNone) return false;
+    const float at = dot(across, place);
+    blows.point.set(row, place + (kept_between(along, at) - at) * across);
+    blows.direction.set(row, across);
     return true;
 }
 

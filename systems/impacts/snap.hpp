@@ -2,6 +2,7 @@
 #pragma once
 #include "components/blows.hpp"
 #include "components/body_rows.hpp"
+#include "components/solid_rows.hpp"
 
 namespace cullet {
 
@@ -9,5 +10,9 @@ namespace cullet {
 /// section is moved so that a tenth of the body is left on either side. False: no row of Blows is free.
 bool snap(Blows& blows, const ShellRows& rows, const Bodies& bodies, Row<Bodies> body, Vec3 place, Vec3 normal,
           uint64_t seed);
+
+/// The same of a solid: a plane, askew by a little. Its cells make the faces rough.
+bool snap_solid(Blows& blows, Read<SolidRows> rows, const Bodies& bodies, Row<Bodies> body, Vec3 place, Vec3 normal,
+                uint64_t seed);
 
 }  // namespace cullet

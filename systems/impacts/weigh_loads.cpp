@@ -172,8 +172,11 @@ bool is_for_a_run(const WorldRows& state, const LoadedBody& of, const Overload& 
     const Row<Bodies> body = of.body;
     if (is_sunk(of, over.sunk) || is_past_blows(of, rules.settings)) return false;
     if (bodies.overload_runs[body] >= (over.is_driven ? kMostDrivenRuns : kMostRuns)) return false;
-    if (speed_of(state, body, over) > kFastestRun) return false;
-    if (state.shells.elements[state.shell_of(bodies.structure[body])].count < kFewestForARun) return false;
+    // A load on a solid is told as one, and cracks it at any speed.
+    if (!of.is_solid() && speed_of(state, body, over) > kFastestRun) return false;
+    const uint32_t elements =
+        of.is_solid() ? state.structures.live_elements[of.structure()] : state.shells.elements[of.shell()].count;
+    if (elements < kFewestForARun) return false;
     const std::optional<RunLength> run = rules.models.length(state, body);
     return !run || !is_deep(bodies, body, way_in(over, step.gravity, seconds_of_run(*run, rules.settings, step.dt)));
 }
@@ -328,8 +331,8 @@ void Weighing::give_way(const LoadedBody& of, const Overload& over, const RigidC
     const bool has_pressed_on = is_busy && is_too_late(rows, body, over, step);
     if (is_busy && !makes_way(rows, blows, Row<Tasks>(bodies.task[body]), has_pressed_on)) return;
     bodies.overloaded_steps[body] = 0;
-    // What cannot be cut gives way by blows alone, however often.
-    const bool is_uncut = rules.models.why_not_cut(rows, body);
+    // What cannot be cut gives way by blows alone, however often. The game does not cut solids; a load parts them.
+    const bool is_uncut = !of.is_solid() && rules.models.why_not_cut(rows, body);
     const bool is_at_end = !is_uncut && is_at_its_end(of, rules.settings);
     if (is_at_end && of.is_pinned()) return;  // it goes nowhere
     const QueuedHit blow = hit_of(rows, body, worst, over, step.frame);

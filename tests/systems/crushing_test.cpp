@@ -29,9 +29,13 @@ struct Thing {
     std::string script, told;
     double size, top, half_width, bends_at = 1e30;  // m
 };
-Thing random_thing(Draw& draw) {
+/// Every third of the seeds is a solid of the model lattice, and no vase.
+bool is_solid_seed(uint32_t seed) {
+    return seed % 3 == 0;
+}
+Thing random_thing(Draw& draw, bool is_solid = false) {
     Thing t;
-    const uint32_t kind = draw.engine() % 4;
+    const uint32_t kind = is_solid ? 1 + draw.engine() % 3 : draw.engine() % 4;
     t.size = draw.evenly_in_scale(0.05, 1);
     const double size = t.size, wall = std::min(draw.within(0.002, 0.01), size / 12);
     const double edge = draw.within(0.05, 0.1) * size;
@@ -62,10 +66,12 @@ Thing random_thing(Draw& draw) {
         t.half_width = 0.1 * size;
     }
     t.script +=
-        format("local thing = game.spawn{mesh = %s, material = '%s', thickness = %g, edge = %g, at = {0, %g, 0}} ",
-               mesh.c_str(), is_glass ? "glass" : "porcelain", wall, edge, at);
+        format("local thing = game.spawn{mesh = %s, material = '%s', thickness = %g, edge = %g, at = {0, %g, 0}%s} ",
+               mesh.c_str(), is_glass ? "glass" : "porcelain", wall, edge, at,
+               is_solid ? ", model = 'lattice', lattice = {wanted_cells = 300}" : "");
     constexpr const char* kNames[] = {"vase", "ball", "box", "pane"};
-    t.told = format("%s %s of %.3f m, wall %.1f mm", is_glass ? "glass" : "porcelain", kNames[kind], size, 1000 * wall);
+    t.told = format("%s%s %s of %.3f m, wall %.1f mm", is_solid ? "solid " : "", is_glass ? "glass" : "porcelain",
+                    kNames[kind], size, 1000 * wall);
     return t;
 }
 
@@ -145,7 +151,7 @@ TEST(Crushing, AWeightOfMoreThanAThingBearsBreaksItBeforeItIsDeepInIt) {
     uint32_t due = 0, wrong = 0;
     for (uint32_t seed = 1; due < cases(); ++seed) {
         Draw draw{std::mt19937(seed)};
-        const Thing thing = random_thing(draw);
+        const Thing thing = random_thing(draw, is_solid_seed(seed));
         const double mass = draw.evenly_in_scale(30, kMostMass), rate = kRates[draw.engine() % 3];
         const std::string script = watched(thing, weight(draw, thing, mass), most_inside(thing));
         const Crushed crushed = play(script, thing, kGravity * mass, 1.5, rate);
@@ -162,7 +168,7 @@ TEST(Crushing, APressOfAMillimetreToHalfAMetreASecondBreaksAThingBeforeItIsDeepI
     uint32_t wrong = 0;
     for (uint32_t seed = 1; seed <= cases(); ++seed) {
         Draw draw{std::mt19937(1000 + seed)};
-        const Thing thing = random_thing(draw);
+        const Thing thing = random_thing(draw, is_solid_seed(seed));
         const double speed = draw.evenly_in_scale(0.001, 0.5), rate = kRates[draw.engine() % 3];
         const double most = most_inside(thing), half = 0.3 * thing.size;
         const std::string press = format(
@@ -198,7 +204,7 @@ TEST(Crushing, AWeightOnALightBlockBreaksWhatBearsThemBothAtAnyRate) {
     uint32_t due = 0, wrong = 0;
     for (uint32_t seed = 1; due < cases(); ++seed) {
         Draw draw{std::mt19937(4000 + seed)};
-        const Thing thing = random_thing(draw);
+        const Thing thing = random_thing(draw, is_solid_seed(seed));
         if (thing.bends_at < 1e30) continue;  // a block on a pane bends it otherwise than a ball in its middle
         const double mass = draw.evenly_in_scale(100, kMostMass), rate = kSlowToo[draw.engine() % 4];
         const std::string script = watched(thing, on_a_block(draw, thing, mass, "wood"), most_inside(thing));
@@ -218,7 +224,7 @@ TEST(Crushing, AWeightOfHalfOfWhatAThingBearsStandsOnABlockOnItAtAnyRate) {
     uint32_t played = 0, wrong = 0;
     for (uint32_t seed = 1; played < cases(); ++seed) {
         Draw draw{std::mt19937(5000 + seed)};
-        const Thing thing = random_thing(draw);
+        const Thing thing = random_thing(draw, is_solid_seed(seed));
         if (thing.bends_at < 1e30) continue;
         const double share = draw.within(0.3, 0.5), rate = kSlowToo[draw.engine() % 4];
         const std::string scene = "game.scene{shows = 'a load', seconds = 60} game.floor() " + thing.script;

@@ -1,5 +1,5 @@
 // What is squeezed between a press and a floor breaks, dents, bends, or is held between them, whatever it is of. Random
-// sizes, walls, speeds and rates; brittle things stand in crushing_test.cpp.
+// sizes, walls, speeds and rates; brittle shells stand in crushing_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -180,6 +180,24 @@ TEST(Squeezed, WoodBreaksBeforeAPressIsDeepInIt) {
         const double rate = kRates[draw.engine() % 3];
         const Squeezed was = play(thing, press, rate, seconds_of(thing, press));
         // What the press comes while the break is worked off is seen at its end.
+        const double most = std::max(0.01, thing.size / 10) + 2 * press.speed / rate;
+        if (was.failure.empty() && was.pieces > 0 && was.deepest < most) continue;
+        ++wrong;
+        tell(seed, thing, press, rate, was);
+    }
+    EXPECT_EQ(wrong, 0u);
+}
+
+TEST(Squeezed, ASolidBreaksBeforeAPressIsDeepInIt) {
+    constexpr const char* kStones[] = {"brick", "concrete", "glass", "porcelain"};
+    uint32_t wrong = 0;
+    for (uint32_t seed = 1; seed <= cases(); ++seed) {
+        Draw draw{std::mt19937(500 + seed)};
+        const Thing thing = random_thing(draw, 0.015, 0.06, 2);
+        const Pressing press{kStones[draw.engine() % 4], ", model = 'lattice', lattice = {wanted_cells = 300}",
+                             draw.evenly_in_scale(0.01, 1), 0.3};
+        const double rate = kRates[draw.engine() % 3];
+        const Squeezed was = play(thing, press, rate, seconds_of(thing, press));
         const double most = std::max(0.01, thing.size / 10) + 2 * press.speed / rate;
         if (was.failure.empty() && was.pieces > 0 && was.deepest < most) continue;
         ++wrong;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "systems/models/lattice/crack/part_body.hpp"
 #include "systems/models/lattice/gather_blow.hpp"
 #include "systems/models/lattice/loop.hpp"
 #include "systems/models/lattice/shared/brittle.hpp"
@@ -18,6 +19,8 @@ constexpr double kNsAUnit = 2;
 constexpr uint32_t kHullDepth = 4;
 constexpr double kHullExcess = 1.3;  // of a piece's hulls: closer ones take as long again
 constexpr size_t kFewestCorners = 4;
+// What presses on pieces goes on for as long as any is too large, and to part one takes as long whatever comes of it.
+constexpr uint32_t kPartsOfPiece = 8;
 // Lists of a cut: three times what a brick, a bowl and a statue of 6,000 triangles took.
 constexpr uint64_t kListBytes = 16 << 20, kListBytesARow = 2048;
 
@@ -121,8 +124,10 @@ void shape_faces(Read<LatticeRows> rows, Row<Tasks> task, const KnownSolid& know
     const Breakable& breakable = breakable_of(known);
     RoomOfRun& room = room_of(breaking);
     const uint32_t foreign = room.own.empty() ? kNone : breakable.body.part_count;
-    filter_by_majority(breakable.body, {}, room.run.piece, room.run.volume, foreign);
-    join_islands(breakable.body, room.run.piece, room.run.volume, room.faces, foreign);
+    if (!is_load_that_parts(rows.lattice_runs, task)) {  // which has no teeth, and may leave a cell alone
+        filter_by_majority(breakable.body, {}, room.run.piece, room.run.volume, foreign);
+        join_islands(breakable.body, room.run.piece, room.run.volume, room.faces, foreign);
+    }
     const Row<Solids> solid = solid_of(rows.structures, rows.tasks.source[task]);
     const Range moved = rows.solids.moved[solid];
     for (uint32_t r = moved.first; r < moved.first + moved.count; ++r)
@@ -296,13 +301,22 @@ void begin_run(Read<LatticeRows> rows, Row<Tasks> task) {
     room.faces = take_faces(room.arena, breakable.body);
     room.piece = 0;
     room.stage = RunStage::Done;
-    if (!(rows.lattice_runs.speed[task] > 0)) return;
+    const bool is_parted = is_load_that_parts(rows.lattice_runs, task);
+    if (!(rows.lattice_runs.speed[task] > 0) && !is_parted) return;
     list_own(rows, source, room.own);
+    list_held(rows, rows.tasks.body[task], known, room.held);
+    if (is_parted) {
+        const bool is_piece = rows.structures.generation[source] > 0;
+        part_body(breakable.body,
+                  {rows.lattice_runs.point[task], rows.lattice_runs.push[task], is_piece ? kPartsOfPiece : 2}, room.own,
+                  room.run);
+        if (room.run.crack_count > 0) room.stage = RunStage::Faces;
+        return;
+    }
     BrittleSolid brittle = brittle_of(rows.materials, rows.structures.material[source]);
     brittle.tensile_strength *= double{rows.tasks.strength_scale[task]};
     CrackRules rules;
     rules.must_break = rows.tasks.load[task] > 0;
-    list_held(rows, rows.tasks.body[task], known, room.held);
     begin_break(breakable.body, brittle, blow_of(rows.lattice_runs, task), rules, room.held, room.run, room.own);
     room.stage = RunStage::Solve;
 }

@@ -20,6 +20,11 @@ bool gather_blow(LatticeRows rows, const Blows& blows, Row<Tasks> task) {
     const TaskContacts& contacts = rows.task_contacts;
     const Row<Bodies> body = rows.tasks.body[task];
     LatticeRuns& runs = rows.lattice_runs;
+    for (uint32_t b = 0; b < blows.size(); ++b) {
+        if (blows.task[b] != task.index || !is_kind(blows, b, BlowKind::Cut)) continue;
+        runs.point.set(task, Vec3d(blows.point[b])), runs.push.set(task, Vec3d(blows.direction[b]));
+        return true;
+    }
     const uint32_t first = rows.tasks.first_contact[task], end = first + rows.tasks.contact_count[task];
     double most = 0;
     for (uint32_t c = first; c < end; ++c) {

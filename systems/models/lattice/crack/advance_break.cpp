@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "systems/models/lattice/crack/begin_pieces.hpp"
 #include "systems/models/lattice/crack/break_run.hpp"
 #include "systems/models/lattice/crack/crack_level.hpp"
 #include "systems/models/lattice/crack/crack_sheet.hpp"
@@ -154,17 +155,7 @@ void begin_break(const BreakableSolid& body, const BrittleSolid& brittle, const 
     run.contact = hertz_contact(blow, brittle.elastic);
     run.work = 0;
     run.share = 1, run.gate = 0, run.first_crack = 0;
-    run.crack_count = run.solve_count = run.plane_count = 0;
-    run.piece_count = body.part_count + !own.empty();
-    std::fill(run.volume.begin(), run.volume.begin() + run.piece_count, 0.0);
-    double sum = 0;
-    for (uint32_t c = 0; c < run.piece.size(); ++c) {
-        run.piece[c] = own.empty() || own[c] ? body.part[c] : body.part_count;
-        if (run.piece[c] == body.part_count) continue;
-        run.volume[body.part[c]] += body.solid.cells[c].volume;
-        sum += body.solid.cells[c].volume;
-    }
-    run.volume_before = own.empty() ? body.solid.volume : sum;
+    begin_pieces(body, own, run);
     run.patch = patch_radius(run.contact, brittle, body.solid.lattice.edge, run.volume_before);
     run.brought = 0.5 * blow.effective_mass * blow.speed * blow.speed;
     for (uint32_t i = 0; i < run.is_held.size(); ++i) run.is_held[i] = held.empty() ? 0 : held[i];

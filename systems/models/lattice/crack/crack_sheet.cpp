@@ -102,14 +102,10 @@ void join_small_parts(const BreakableSolid& body, BreakRun& run, uint32_t piece,
     }
 }
 
-}  // namespace
-
-bool break_sheet(const BreakableSolid& body, BreakRun& run, uint32_t start) {
-    const uint32_t piece = run.piece[start];
-    const uint32_t bonds = flood_sheet(body, run, start);
+// The piece is what hangs together without these bonds.
+bool take_bonds(const BreakableSolid& body, BreakRun& run, uint32_t piece, uint32_t bonds, double least) {
     if (bonds == 0) return false;
     const uint32_t parts = flood_parts_of_piece(body, run, piece);
-    const double least = run.rules.least_cells * mean_cell(body);
     uint32_t large = 0;
     for (uint32_t p = 0; p < parts; ++p) large += run.part_volume[p] >= least;
     if (large < 2) return false;
@@ -134,6 +130,22 @@ bool break_sheet(const BreakableSolid& body, BreakRun& run, uint32_t start) {
     }
     run.sheet_count = kept;
     return true;
+}
+
+}  // namespace
+
+bool break_sheet(const BreakableSolid& body, BreakRun& run, uint32_t start) {
+    return take_bonds(body, run, run.piece[start], flood_sheet(body, run, start),
+                      run.rules.least_cells * mean_cell(body));
+}
+
+bool break_sides(const BreakableSolid& body, BreakRun& run, uint32_t piece, double least) {
+    uint32_t count = 0;
+    for (uint32_t b = 0; b < body.solid.bonds.size(); ++b) {
+        run.is_sheet[b] = parts_sides(body, run, b, piece);
+        if (run.is_sheet[b]) run.sheet[count++] = b;
+    }
+    return take_bonds(body, run, piece, count, least);
 }
 
 void shield(const BreakableSolid& body, BreakRun& run, uint32_t start) {

@@ -9,6 +9,9 @@ namespace cullet {
 /// pieces' volumes and run.sheet are what the crack leaves: the largest part keeps the piece's number.
 bool break_sheet(const BreakableSolid& body, BreakRun& run, uint32_t start);
 
+/// The same of all bonds between the two sides, wherever they are. `least`: m3, of a part.
+bool break_sides(const BreakableSolid& body, BreakRun& run, uint32_t piece, double least);
+
 /// No other crack of this solve starts near the sheet.
 void shield(const BreakableSolid& body, BreakRun& run, uint32_t start);
 
