@@ -30,6 +30,9 @@ constexpr double kSolidWalls = 2.5;
 // such a one and a floor is crushed, slips away, or stands in both.
 constexpr double kOutweighs = 20;
 
+// Cosine, of 72 degrees, between a push and what pushes back.
+constexpr double kJammed = 0.3;
+
 // Pa, of brittle things, when nothing around confines what is crushed.
 constexpr double kCrushOverPull = 10;
 
@@ -159,6 +162,12 @@ void press(const LoadedBody& of, std::span<BodyLoad> loads, Vec3d weight, const 
     if (may_bend() && stands() && may_bend()) bend(of, loads, room.forces, under, worst);
 }
 
+// Somebody else pushes it back: in rubble nothing is just opposite.
+bool is_jammed(const BodyLoad& by, std::span<const BodyLoad> loads) {
+    return std::any_of(loads.begin(), loads.end(),
+                       [&](const BodyLoad& l) { return l.toucher != by.toucher && dot(l.push, by.push) < -kJammed; });
+}
+
 }  // namespace
 
 double sum_of(std::span<const BodyLoad> loads) {
@@ -188,6 +197,7 @@ double sunk_into(const LoadedBody& of, std::span<const BodyLoad> loads) {
     for (const BodyLoad& l : loads) {
         deepest = std::max(deepest, l.depth);
         if (of.is_pinned() && counts(l)) sunk = std::max(sunk, l.depth);
+        if (of.is_solid() && presses(l) && is_jammed(l, loads)) sunk = std::max(sunk, l.depth);
     }
     for (const BodyLoad& a : loads) {
         if (!(a.depth > 0) || a.depth + deepest <= sunk || !counts(a)) continue;

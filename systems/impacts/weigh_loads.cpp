@@ -36,7 +36,8 @@ constexpr float kBreakingSpeed = 2, kMostShare = 1.5f, kHarder = 1.5f;
 // What no such blow breaks snaps. A bar that bears tonnes in its middle takes blows of 100 m/s, which bore holes; what
 // drives does not wait for a second run, nor for a first one while it comes so far, as a share of the size.
 constexpr float kFastestRun = 15, kDeepest = 0.05f, kWithCracks = 1.6f;
-// What lies deeper in it than these shares of its size and of its wall has crushed it, whatever the solver says.
+// What lies deeper in it than these shares of its size and of its wall has crushed it, whatever the solver says. A
+// solid has no wall.
 constexpr float kSunkInAll = 0.03f, kSunkInWall = 0.5f;
 constexpr uint8_t kMostRuns = 2, kMostDrivenRuns = 1;
 // A piece that is still whole after so many cuts cannot be cut.
@@ -70,7 +71,7 @@ bool is_deep(const Bodies& bodies, Row<Bodies> body, double way) {
     return way > kDeepest * 2 * bodies.radius[body];
 }
 bool is_sunk(const LoadedBody& of, double deep) {
-    return deep > kSunkInAll * 2 * of.bodies.radius[of.body] && deep > kSunkInWall * of.wall();
+    return deep > kSunkInAll * 2 * of.bodies.radius[of.body] && (of.is_solid() || deep > kSunkInWall * of.wall());
 }
 
 // Whether there is anything to look at.

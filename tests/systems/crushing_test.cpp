@@ -35,7 +35,7 @@ bool is_solid_seed(uint32_t seed) {
 }
 Thing random_thing(Draw& draw, bool is_solid = false) {
     Thing t;
-    const uint32_t kind = is_solid ? 1 + draw.engine() % 3 : draw.engine() % 4;
+    const auto kind = static_cast<uint32_t>(is_solid ? 1 + draw.engine() % 3 : draw.engine() % 4);
     t.size = draw.evenly_in_scale(0.05, 1);
     const double size = t.size, wall = std::min(draw.within(0.002, 0.01), size / 12);
     const double edge = draw.within(0.05, 0.1) * size;

