@@ -486,9 +486,11 @@ void check_blows(Checker& check) {
         check.expect(is_for_all || has_structure || may_lack_structure,
                      Checker::place(blows, "body", b) + " is " + std::to_string(body) + ", which it cannot hit");
         const uint32_t task = blows.task[b];
+        // A shell is cut within a step; a solid is parted over some.
+        const bool may_last =
+            kind != BlowKind::Cut || (has_structure && !is_shell(s.structures, s.bodies.structure[body]));
         check.expect(
-            task == kNone ||
-                (is_task(s, task) && s.tasks.body[task] == body && blows.is_taken[b] && kind != BlowKind::Cut),
+            task == kNone || (is_task(s, task) && s.tasks.body[task] == body && blows.is_taken[b] && may_last),
             Checker::place(blows, "task", b) + " is " + std::to_string(task) + ", not an open task of its body");
         check.expect(blows.point_count[b] <= kMostCutPoints && blows.point_count[b] != 1,
                      Checker::place(blows, "point_count", b) + " is " + std::to_string(blows.point_count[b]));

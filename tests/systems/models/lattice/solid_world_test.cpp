@@ -364,5 +364,62 @@ TEST(SolidWorld, AColumnThatLosesItsFootFalls) {
         }
 }
 
+/// A press comes down on the lying bar at half a metre a second, until 2 cm are left of its 12.
+World pressed_bar(const Settings& settings) {
+    World world = test::make_world(settings);
+    test::add_floor(world);
+    SpawnSettings spawning;
+    spawning.pose.position = {0, 0.061f, 0};
+    EXPECT_TRUE(world.spawn(value_of(world.add_model(bar())), spawning).ok());
+    KinematicSettings press;
+    press.half_extents = {1, 0.2f, 1};
+    press.pose.position = {0, 0.335f, 0};
+    press.motion.velocity = {0, -0.5f, 0};
+    EXPECT_TRUE(world.add_kinematic_box(press).ok());
+    return world;
+}
+constexpr int kPressFrames = 13;  // that it moves
+
+TEST(SolidWorld, WhatAPressComesDownOnIsPartedPastTheLastGenerationAndKeepsItsMass) {
+    World world = pressed_bar(settings_on(1));
+    uint8_t oldest = 0;
+    for (int frame = 0; frame < kPressFrames + 90; ++frame) {
+        if (frame == kPressFrames) {
+            const State& state = state_of(world);
+            for (uint32_t b = 0; b < state.bodies.size(); ++b)
+                if (static_cast<BodyKind>(state.bodies.kind[b]) == BodyKind::Kinematic) {
+                    ASSERT_TRUE(world.set_motion({b, state.bodies.generation[b]}, {}).ok());
+                }
+        }
+        world.step();
+        const State& state = state_of(world);
+        for (uint32_t b = 0; b < state.bodies.size(); ++b)
+            if (state.bodies.kind[b] != 0 && state.bodies.structure[b].exists())
+                oldest = std::max(oldest, state.structures.generation[state.bodies.structure[b]]);
+    }
+    EXPECT_GT(oldest, DamageSettings().generations);
+    EXPECT_NEAR(mass_of_solids(world), bar().report().mass, 1e-3 * bar().report().mass);
+    const DamageCounts& counts = world.contents().data.counts;
+    EXPECT_GT(counts.broke, 10u);
+}
+
+TEST(SolidWorld, WhatIsPressedIsTheSameOnAnyNumberOfThreadsAfterALoadAndAllocatesNothing) {
+    test::expect_same_on_threads([](uint32_t threads) { return pressed_bar(settings_on(threads, 4'000'000)); }, 30);
+    World world = pressed_bar(settings_on(1, 4'000'000));
+    const uint32_t loads = test::expect_loads(
+        world, [] { return test::make_world(settings_on(2, 4'000'000)); }, 30,
+        [&](int) {
+            for (uint32_t t = 0; t < state_of(world).tasks.size(); ++t)
+                if (static_cast<TaskState>(state_of(world).tasks.state[t]) != TaskState::Free) return true;
+            return false;
+        });
+    EXPECT_GT(loads, 3u);
+    World counted = pressed_bar(settings_on(1));
+    start_counting_allocations();
+    for (int frame = 0; frame < 30; ++frame) counted.step();
+    EXPECT_EQ(stop_counting_allocations().ours, 0u);
+    EXPECT_GT(counted.contents().data.counts.broke, 3u);
+}
+
 }  // namespace
 }  // namespace cullet
