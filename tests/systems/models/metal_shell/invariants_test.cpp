@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "sample_game/meshes.hpp"
 #include "sample_game/metal/metal_bench.hpp"
 #include "systems/models/metal_shell/dent/raise_body.hpp"
 #include "systems/models/metal_shell/dent/raise_sheet.hpp"
@@ -185,6 +186,59 @@ TEST(MetalInvariants, AFieldGoesTheWayOfThePushAndNothingIsLeftInTheStriker) {
         for (uint32_t v = 0; v < bench->view().vertex_count(); ++v) {
             EXPECT_GE(bench->view().vertices().field[bench->view().vertex(v)], 0);
             EXPECT_LT(striker->covers(Vec3d(bench->place(v)), depth), 1e-4) << v;
+        }
+}
+
+/// How far any vertex is out of the box of the original shape, m.
+double out_of_box(const MetalBench& bench) {
+    Vec3 low{1e30f, 1e30f, 1e30f}, high{-1e30f, -1e30f, -1e30f};
+    float out = 0;
+    for (uint32_t v = 0; v < bench.view().vertex_count(); ++v) {
+        const Vec3 p = bench.original(v);
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    for (uint32_t v = 0; v < bench.view().vertex_count(); ++v) {
+        const Vec3 p = bench.place(v);
+        out = std::max({out, low.x - p.x, low.y - p.y, low.z - p.z, p.x - high.x, p.y - high.y, p.z - high.z});
+    }
+    return double{out};
+}
+
+// A spike metres long stood out of a drum: edges between what moved and what did not were drawn past their limits, by
+// more each round.
+TEST(MetalInvariants, ObliqueHitsLeaveABodyAboutItsBox) {
+    const Model drum = cook_metal_mesh(make_drum(0.88f, 3500), "aluminium", 1e-3).value(),
+                box = cook_metal_mesh(test::box_mesh({0.9, 0.5, 0.7}, 20), "aluminium", 1e-3).value(),
+                sheet = cook_metal_mesh(metal_sheet(1.2, 0.8, 48, 32), "aluminium", 1e-3).value();
+    const std::pair<const char*, const Model*> bodies[] = {{"drum", &drum}, {"box", &box}, {"panel", &sheet}};
+    for (const auto& [name, model] : bodies)
+        for (const double tilt : {0.0, 20.0, 40.0, 60.0, 80.0}) {
+            uint64_t seed = 3;
+            const auto next = [&seed] {
+                seed = seed * 6364136223846793005ull + 1442695040888963407ull;
+                return static_cast<double>(seed >> 11) / 9007199254740992.0;
+            };
+            MetalBench bench(*model);
+            if (model == &sheet) bench.clamp();
+            const MetalView metal = bench.view();
+            double worst = 0;
+            for (int hit = 0; hit < 60; ++hit) {
+                const auto e = static_cast<uint32_t>(next() * metal.element_count());
+                const auto& c = metal.corners(e);
+                const Vec3d p(bench.original(c[0])), q(bench.original(c[1])), r(bench.original(c[2]));
+                const Vec3d normal = normalised(cross(q - p, r - p)), along = normalised(q - p);
+                double sine, cosine, x, y;
+                sine_cosine(tilt * 3.14159265 / 180, sine, cosine);
+                sine_cosine(6.2831853 * next(), y, x);
+                Striker ball;
+                ball.shape = StrikerShape::Sphere, ball.radius = 0.1;
+                ball.point = Vec3d(bench.place(c[0]));
+                ball.push = normalised(sine * (x * along + y * cross(normal, along)) - cosine * normal);
+                bench.hit(ball, 600);
+                worst = std::max(worst, out_of_box(bench));
+            }
+            EXPECT_LT(worst, 0.25) << name << ", " << tilt << " degrees";
         }
 }
 
