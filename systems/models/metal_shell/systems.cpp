@@ -76,7 +76,19 @@ double share_of(Read<MetalRows> rows, Row<Tasks> task, Row<Bodies> striker) {
     return own > 0 && his > 0 ? his / (own + his) : 0.5;
 }
 
-void gather_contacts(MetalRows rows, Row<Tasks> task, const Contact& strongest, const QueryIndex& index) {
+/// What fronts of strikers are laid by.
+struct Strikers {
+    Step step;
+    const QueryIndex& index;
+    const Events<ForeseenHit>& foreseen;
+
+    StrikerShape lay(MetalRows rows, Row<Tasks> task, Row<Bodies> striker, Vec3d point, Vec3d push) const {
+        const TouchPoses poses = poses_at_touch(rows.tasks, rows.bodies, foreseen, step.frame, task, striker);
+        return lay_front(rows, index, task, striker, poses, point, push);
+    }
+};
+
+void gather_contacts(MetalRows rows, Row<Tasks> task, const Contact& strongest, const Strikers& strikers) {
     MetalRuns& runs = rows.metal_runs;
     const TaskContacts& contacts = rows.task_contacts;
     const uint32_t first = rows.tasks.first_contact[task], end = first + rows.tasks.contact_count[task];
@@ -92,7 +104,7 @@ void gather_contacts(MetalRows rows, Row<Tasks> task, const Contact& strongest, 
     middle = is_round ? Vec3d(contacts.point[strongest.row]) : (1.0 / count) * middle;
     const double inverse_mass =
         own_inverse_mass(rows, task, middle, normal) + double{contacts.striker_inverse_mass[strongest.row]};
-    const StrikerShape shape = is_round ? StrikerShape::Sphere : lay_front(rows, index, task, striker, middle, normal);
+    const StrikerShape shape = is_round ? StrikerShape::Sphere : strikers.lay(rows, task, striker, middle, normal);
     runs.shape[task] = static_cast<uint8_t>(shape);
     runs.point.set(task, middle.to_float());
     runs.push.set(task, normal.to_float());
@@ -135,14 +147,14 @@ void gather_explosion(MetalRows rows, Row<Tasks> task, const Blows& blows, uint3
 }
 
 // What comes again at the same place belongs to what came before: the dent hangs on the sum.
-void join_earlier(MetalRows rows, Row<Tasks> task, Step step, const QueryIndex& index) {
+void join_earlier(MetalRows rows, Row<Tasks> task, const Strikers& strikers) {
     MetalRuns& runs = rows.metal_runs;
     const Row<Bodies> body = rows.tasks.body[task];
     Knock knock;
     knock.body = body, knock.striker = runs.striker[task];
     knock.point = Vec3d(runs.point[task]), knock.push = Vec3d(runs.push[task]);
     knock.radius = double{runs.radius[task]};
-    knock.frame = rows.tasks.opened_frame[task], knock.step_seconds = step.dt;
+    knock.frame = rows.tasks.opened_frame[task], knock.step_seconds = strikers.step.dt;
     const Earlier earlier = earlier_of(rows.metal_impacts, knock);
     if (!earlier.goes_on) return;
     const MetalImpacts& impacts = rows.metal_impacts;
@@ -154,7 +166,7 @@ void join_earlier(MetalRows rows, Row<Tasks> task, Step step, const QueryIndex& 
     const Vec3d first(impacts.point[body]), push(impacts.push[body]);
     const Vec3d now = first + dot(knock.point - first, push) * push;
     const StrikerShape shape = impacts.radius[body] > 0 ? static_cast<StrikerShape>(impacts.shape[body])
-                                                        : lay_front(rows, index, task, runs.striker[task], now, push);
+                                                        : strikers.lay(rows, task, runs.striker[task], now, push);
     runs.shape[task] = static_cast<uint8_t>(shape);
     runs.point.set(task, impacts.point[body]), runs.push.set(task, impacts.push[body]);
     runs.radius[task] = impacts.radius[body];
@@ -168,7 +180,7 @@ bool is_press(Read<MetalRows> rows, Row<Tasks> task) {
 }
 
 // The dent begins where the sheet would be without who presses: that far behind his front.
-void gather_press(MetalRows rows, Row<Tasks> task, const QueryIndex& index) {
+void gather_press(MetalRows rows, Row<Tasks> task, const Strikers& strikers) {
     MetalRuns& runs = rows.metal_runs;
     const TaskContacts& contacts = rows.task_contacts;
     const uint32_t c = rows.tasks.first_contact[task];
@@ -177,7 +189,7 @@ void gather_press(MetalRows rows, Row<Tasks> task, const QueryIndex& index) {
     const double depth = double{rows.metal_presses.depth[rows.tasks.body[task]]};
     const Vec3d front = Vec3d(contacts.point[c]) + 0.5 * depth * push;
     const bool is_round = contacts.striker_radius[c] > 0;
-    const StrikerShape shape = is_round ? StrikerShape::Sphere : lay_front(rows, index, task, striker, front, push);
+    const StrikerShape shape = is_round ? StrikerShape::Sphere : strikers.lay(rows, task, striker, front, push);
     runs.shape[task] = static_cast<uint8_t>(shape);
     runs.point.set(task, (front - depth * push).to_float());
     runs.push.set(task, push.to_float());
@@ -185,15 +197,15 @@ void gather_press(MetalRows rows, Row<Tasks> task, const QueryIndex& index) {
     runs.striker[task] = striker;
 }
 
-void gather(MetalRows rows, Row<Tasks> task, Step step, const Blows& blows, const QueryIndex& index) {
-    if (is_press(rows, task)) return gather_press(rows, task, index);
+void gather(MetalRows rows, Row<Tasks> task, const Blows& blows, const Strikers& strikers) {
+    if (is_press(rows, task)) return gather_press(rows, task, strikers);
     MetalRuns& runs = rows.metal_runs;
     if (const Contact strongest = strongest_contact(rows, task); strongest.row != kNone)
-        gather_contacts(rows, task, strongest, index);
+        gather_contacts(rows, task, strongest, strikers);
     for (uint32_t b = 0; b < blows.size() && !(runs.energy[task] > 0); ++b)
         if (blows.task[b] == task.index && is_kind(blows, b, BlowKind::Explosion))
             gather_explosion(rows, task, blows, b);
-    if (runs.energy[task] > 0) join_earlier(rows, task, step, index);
+    if (runs.energy[task] > 0) join_earlier(rows, task, strikers);
 }
 
 }  // namespace
@@ -268,14 +280,14 @@ void tear(MetalRows rows, Row<Tasks> task, const Blows& blows, const Dent& dent)
 
 }  // namespace
 
-void gather_impulses(EachOwn<TaskOpened> opened, Step step, const Blows& blows, MetalRows rows,
-                     const QueryIndex& index) {
+void gather_impulses(EachOwn<TaskOpened> opened, Step step, const Blows& blows, const Events<ForeseenHit>& foreseen,
+                     MetalRows rows, const QueryIndex& index) {
     const Row<Tasks> task = opened->task;
     const Row<Structures> source = rows.tasks.source[task], working = rows.tasks.working[task];
     copy_shell_rows(rows, rows, source, working, false);
     clear_pack_ends(rows, working);
     copy_metal_rows(rows, rows, source, working);
-    gather(rows, task, step, blows, index);
+    gather(rows, task, blows, {step, index, foreseen});
 }
 
 void work_impact(Of<Tasks> task, MetalRows rows, const Blows& blows) {

@@ -6,9 +6,9 @@ namespace cullet::metal_shell {
 
 /// Copies the body's rows into the task's. Adds up what strikes the body: one striker, one push and one energy an
 /// impact, however many contacts and steps it has. An explosion strikes as a ball whose front is at the body. What is
-/// not round gets a front of its triangles.
-void gather_impulses(EachOwn<TaskOpened> opened, Step step, const Blows& blows, MetalRows rows,
-                     const QueryIndex& index);
+/// not round gets a front of its triangles, as they lie at the touch.
+void gather_impulses(EachOwn<TaskOpened> opened, Step step, const Blows& blows, const Events<ForeseenHit>& foreseen,
+                     MetalRows rows, const QueryIndex& index);
 /// The whole impact: field, folds, creases, limits; and into the working copy's shape. Where that is stretched too far
 /// it tears.
 void work_impact(Of<Tasks> task, MetalRows rows, const Blows& blows);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "components/body_id.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/models/metal_shell/shared/metal_view.hpp"
+#include "systems/world_data.hpp"
 
 namespace cullet {
 namespace {
@@ -55,16 +57,16 @@ Aim seen_from(const Aim& aim, const Pose& struck, const Pose& frame) {
 /// Calls f(where its corners are for the aim) for each triangle of the striker. Each is looked at where it stands, so
 /// that none is turned into another frame. Of sheet metal the outer side will do.
 template <class F>
-void for_each_triangle(Read<MetalRows> rows, const QueryIndex& index, Row<Bodies> striker, const Pose& struck,
+void for_each_triangle(Read<MetalRows> rows, const QueryIndex& index, Row<Bodies> striker, const TouchPoses& poses,
                        const Aim& aim, F&& f) {
     const Bodies& bodies = rows.bodies;
     if (const StaticTriangles* triangles = index.triangles(striker)) {
-        const Aim world = seen_from(aim, struck, {});
+        const Aim world = seen_from(aim, poses.struck, {});
         for (const auto& c : triangles->corners)
             f({world.of(Vec3d(c[0])), world.of(Vec3d(c[1])), world.of(Vec3d(c[2]))});
         return;
     }
-    const Aim own = seen_from(aim, struck, pose_of(bodies, striker));
+    const Aim own = seen_from(aim, poses.struck, poses.striker);
     if (const Row<Structures> structure = bodies.structure[striker]; structure.exists()) {
         const Range &vertices = bodies.view_vertices[striker], &indices = bodies.view_indices[striker];
         uint32_t count = indices.count;
@@ -93,14 +95,13 @@ void for_each_triangle(Read<MetalRows> rows, const QueryIndex& index, Row<Bodies
 }
 
 // Rows run along the axis of the striker that is most square to the push: so an upright pole is straight on the grid.
-Aim aim_at(Read<MetalRows> rows, Row<Tasks> task, Row<Bodies> striker, const Pose& struck, Vec3d point, Vec3d push) {
+Aim aim_at(Read<MetalRows> rows, Row<Tasks> task, const TouchPoses& poses, Vec3d point, Vec3d push) {
     Aim aim;
     aim.point = point, aim.push = push;
-    const Pose own = pose_of(rows.bodies, striker);
     Vec3d best;
     double least = 2;
     for (const Vec3 axis : {Vec3{0, 1, 0}, Vec3{1, 0, 0}, Vec3{0, 0, 1}}) {
-        const Vec3d in_body(rotate(conjugate(struck.orientation), rotate(own.orientation, axis)));
+        const Vec3d in_body(rotate(conjugate(poses.struck.orientation), rotate(poses.striker.orientation, axis)));
         if (const double along = std::fabs(dot(in_body, push)); along < least - 1e-6) least = along, best = in_body;
     }
     aim.v = normalised(best - dot(best, push) * push);
@@ -187,14 +188,30 @@ bool is_flat(const std::array<float, kFrontRows>* rows, double within) {
 
 }  // namespace
 
-StrikerShape lay_front(MetalRows rows, const QueryIndex& index, Row<Tasks> task, Row<Bodies> striker, Vec3d point,
-                       Vec3d push) {
+TouchPoses poses_at_touch(const Tasks& tasks, const Bodies& bodies, const Events<ForeseenHit>& foreseen, uint64_t frame,
+                          Row<Tasks> task, Row<Bodies> striker) {
+    const Row<Bodies> struck = tasks.body[task];
+    TouchPoses poses{pose_of(bodies, struck), striker.exists() ? pose_of(bodies, striker) : Pose{}};
+    if (!is_ahead(tasks, task) || !striker.exists()) return poses;
+    const auto is_of_both = [&](const RigidContact& c) {
+        return (c.a == struck && c.b == striker) || (c.a == striker && c.b == struck);
+    };
+    for (const ForeseenHit& hit : foreseen) {
+        const auto contacts = std::span(hit.touch.contacts).first(hit.touch.contact_count);
+        if (frame + hit.touch.steps != tasks.due_frame[task] || std::ranges::none_of(contacts, is_of_both)) continue;
+        if (hit.body == struck) poses.struck = hit.touch.pose;
+        if (hit.body == striker) poses.striker = hit.touch.pose;
+    }
+    return poses;
+}
+
+StrikerShape lay_front(MetalRows rows, const QueryIndex& index, Row<Tasks> task, Row<Bodies> striker,
+                       const TouchPoses& poses, Vec3d point, Vec3d push) {
     if (!striker.exists()) return StrikerShape::Plane;
-    const Pose struck = pose_of(rows.bodies, rows.tasks.body[task]);
-    const Aim aim = aim_at(rows, task, striker, struck, point, push);
+    const Aim aim = aim_at(rows, task, poses, point, push);
     Extent extent;
     const auto for_each_in_the_way = [&](auto&& f) {
-        for_each_triangle(rows, index, striker, struck, aim, [&](const Across(&c)[3]) {
+        for_each_triangle(rows, index, striker, poses, aim, [&](const Across(&c)[3]) {
             if (is_in_the_way(aim, c)) f(c);
         });
     };

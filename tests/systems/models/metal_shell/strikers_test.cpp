@@ -118,6 +118,38 @@ TEST(Strikers, AKinematicBoxAndAnotherBodyAreSeenAsTheyAre) {
     EXPECT_NEAR(other.depth_at(0.2), other.depth_at(0), 5e-3);
 }
 
+/// The crate turns as it flies, and comes to what stands at x = 1.2 and beyond some frames later.
+Crashed crash_from_afar(uint32_t frames_ahead, Mesh obstacle, Vec3 by) {
+    Settings settings = settings_on(1);
+    settings.frames_ahead = frames_ahead;
+    Crashed made;
+    made.world = std::make_unique<World>(test::make_world(settings));
+    add_mesh(*made.world, std::move(obstacle), by);
+    SpawnSettings thrown;
+    thrown.motion.velocity = {8, 0, 0}, thrown.motion.angular_velocity = {0, 0, 1};
+    made.body = value_of(made.world->spawn(value_of(made.world->add_model(crate())), thrown));
+    for (int frame = 0; frame < 12; ++frame) made.world->step();
+    return made;
+}
+
+TEST(Strikers, AForeseenTouchLeavesTheDentOfOneThatIsNot) {
+    const std::pair<Mesh, Vec3> obstacles[] = {{make_pole(0.1f, 3), {1.3f, -1.5f, 0}},
+                                               {make_box({0.2f, 2, 1}), {1.4f, 0, 1.1f}},
+                                               {make_box({0.2f, 2, 2}), {1.4f, 0, 0}}};
+    for (const auto& [mesh, by] : obstacles) {
+        const Crashed now = crash_from_afar(0, mesh, by), ahead = crash_from_afar(8, mesh, by);
+        EXPECT_EQ(now.world->contents().data.counts.ahead_hits, 0u);
+        EXPECT_GT(ahead.world->contents().data.counts.ahead_hits, 0u);
+        double deepest = 0, apart = 0;
+        for (uint32_t v = 0; v < now.metal().vertex_count(); ++v) {
+            deepest = std::max(deepest, double{length(now.place(v) - now.original(v))});
+            apart = std::max(apart, double{length(now.place(v) - ahead.place(v))});
+        }
+        EXPECT_GT(deepest, 0.02);
+        EXPECT_LT(apart, 0.02 * deepest);
+    }
+}
+
 TEST(Strikers, AnyNumberOfThreadsAndALoadedWorldGiveTheSameBytes) {
     const auto build = [](World& w) { add_mesh(w, make_pole(0.1f, 3), {0.75f, -1.5f, 0.05f}); };
     const Crashed one = crash(10, 1, build);
