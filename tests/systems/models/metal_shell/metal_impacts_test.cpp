@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "components/body_id.hpp"
+#include "sample_game/meshes.hpp"
 #include "systems/models/metal_shell/dent/limit_stretch.hpp"
 #include "tests/systems/models/metal_shell/panels.hpp"
 
@@ -127,6 +128,33 @@ TEST(MetalImpacts, WhatEnclosesSomethingIsABodyHolesOrNot) {
     });
     EXPECT_GT(pressure(box), 0);
     EXPECT_EQ(pressure(metal_sheet(1, 1, 10, 10)), 0);
+}
+
+TEST(MetalImpacts, ABodyMayLackItsFloorAndAChannelOrABowlIsNone) {
+    const auto pressure = [](const Mesh& mesh) {
+        return test::cook_metal(mesh).contents->state.metal_shells.crush_pressure[Row<MetalShells>(0)];
+    };
+    const auto without_floor = [](Vec3d size, int cells, double floor) {
+        Mesh mesh = test::box_mesh(size, cells);
+        std::erase_if(mesh.triangles, [&](const auto& t) {
+            return std::ranges::all_of(t, [&](uint32_t v) { return double{mesh.positions[v].y} < floor; });
+        });
+        return mesh;
+    };
+    EXPECT_GT(pressure(without_floor({0.44, 0.12, 0.18}, 12, 1e-4)), 0) << "as long and as wide as a car";
+    EXPECT_GT(pressure(without_floor({0.6, 0.25, 0.2}, 12, 1e-4)), 0) << "a van";
+    Mesh pipe = metal_sheet(1, 1, 24, 24);
+    for (Vec3& p : pipe.positions) {
+        double sine, cosine;
+        sine_cosine(3.14159265 * double{p.x}, sine, cosine);
+        p = Vec3{static_cast<float>(0.3 * sine), p.y, static_cast<float>(0.3 * cosine)};
+    }
+    EXPECT_EQ(pressure(pipe), 0) << "half a pipe";
+    Mesh bowl = make_ball(0.3f, 4);
+    std::erase_if(bowl.triangles, [&](const auto& t) {
+        return std::ranges::any_of(t, [&](uint32_t v) { return bowl.positions[v].y < -1e-4f; });
+    });
+    EXPECT_EQ(pressure(bowl), 0);
 }
 
 /// One impact in so many pushes, a frame each.
@@ -310,6 +338,31 @@ TEST(MetalImpacts, FiftyHitsOnOneSpotStaySane) {
     EXPECT_GT(last, 0.08);
     EXPECT_LT(last, 0.2);
     EXPECT_EQ(test::state_of(world).validate(), "");
+}
+
+TEST(MetalImpacts, FiftyHitsFromOneSideOnOneSpotStaySane) {
+    for (const bool is_box : {false, true})
+        for (const float tilt : {0.7f, 1.2f}) {
+            World world = test::make_world(settings_on(2, false));
+            const BodyId body = is_box ? spawn_box(world, {0, 1, 0}, {}) : spawn_panel(world);
+            double sine, cosine;
+            sine_cosine(double{tilt}, sine, cosine);
+            PushSettings push;
+            push.place = is_box ? Vec3{0.05f, 1.15f, 0.03f} : Vec3{0.1f, 1, 0.05f};
+            push.normal = {static_cast<float>(sine), -static_cast<float>(cosine), 0};
+            push.approach_speed = 15, push.mass = 10, push.radius = 0.1f;
+            for (int hit = 0; hit < 50; ++hit) {
+                if (is_box) {
+                    ASSERT_TRUE(world.set_pose(body, {Vec3{0, 1, 0} - kMiddle, {}}).ok());
+                    ASSERT_TRUE(world.set_motion(body, {}).ok());
+                }
+                ASSERT_TRUE(world.push_impact(body, push).ok());
+                for (int n = 0; n < 8; ++n) world.step();
+            }
+            EXPECT_GT(test::deepest(world, body), 0.01) << is_box << " " << tilt;
+            EXPECT_LT(test::deepest(world, body), is_box ? 0.3 : 0.4) << is_box << " " << tilt;
+            EXPECT_EQ(test::state_of(world).validate(), "");
+        }
 }
 
 }  // namespace
