@@ -8,6 +8,8 @@
 
 namespace cullet {
 
+/// A world knows balls, planes, and fronts of everything else, poles too. Cylinders are of benches alone: of truth,
+/// figures and tests, which hold what a front does against the closed form.
 enum class StrikerShape : uint8_t { Sphere, Cylinder, Plane, Front };
 
 /// The front of a striker of any other shape: how far it has come along the push at the middles of the cells of a grid
