@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # scripts/test.sh --all [parts]: the long plays, every preset with the tests that it can tell something new by, every fuzz
 # program, the packages, and each scene at every level of SIMD on one thread and on 1, 2, 3 and 8 threads at AVX2, built by
-# g++ and by clang, which must all give the same bytes. Takes an hour and a half on two cores once everything is built, so
-# each part that ends writes its row into tests/ALL.md, with the commit that it saw, and is not played again as long as
-# nothing that it hangs on has changed since. Parts by name: --all tsan vase fuzz_snapshot; debug is played by its name alone.
+# g++ and by clang, which must all give the same bytes. Takes hours on two cores, so each part that ends writes its row
+# into tests/ALL.md, with the commit that it saw, and is not played again as long as nothing that it hangs on has changed
+# since. Parts by name: --all tsan vase fuzz_snapshot; debug is played by its name alone.
 # --failed: of a part whose last row says FAILED only the tests that failed; its row then tells of both runs.
 # --quick: few tests, frames, threads and inputs, to try this script itself; the rows go to build/all/quick.md.
 set -uo pipefail
@@ -49,9 +49,12 @@ among() {
     shift
     [[ " $* " == *" $word "* ]]
 }
+# How much is played: rows of a page that was written with other numbers are not kept.
+played="Frames of a scene: $frames. Inputs of a fuzz program: $inputs. Fragments of the soak: $fragments."
+grep -qsxF "$played" "$page" || page_is_old=true
 # The row of a part on the page, or nothing.
 row_of() {
-    grep -s "^| $1 |" "$page"
+    ! ${page_is_old:-false} && grep -s "^| $1 |" "$page"
 }
 is_done() {
     local seen
@@ -62,16 +65,17 @@ is_done() {
 # write_row PART RESULT SECONDS COMMIT: the page anew, with this row in place of the part's old one.
 write_row() {
     local rows name
-    rows=$(grep -s '^| ' "$page" | grep -v -e "^| $1 |" -e '^| part |')
+    ${page_is_old:-false} || rows=$(grep -s '^| ' "$page" | grep -v -e "^| $1 |" -e '^| part |')
     rows+=$'\n'"| $1 | $2 | $4 | $(date -u +%Y-%m-%d) | $3 |"
     {
         echo "# The last run of everything"
         echo
-        echo "Written by \`scripts/test.sh --all\`; do not edit. The scenes: $frames frames each, on one thread with kernels at"
-        echo "${levels[*]}, on ${threads[*]} threads at avx2, by g++ (Release) and clang (Checked); the hash is that of all"
-        echo "frames. Fuzz programs: $inputs inputs each. checked plays the long run; clang leaves out what plays by the"
-        echo "hundred, release plays what compares bytes or counts allocations, asan whole worlds and what reads files, tsan what"
-        echo "works on several threads."
+        echo "Written by \`scripts/test.sh --all\`; do not edit."
+        echo "$played"
+        echo "The scenes are played on one thread with kernels at ${levels[*]}, on ${threads[*]} threads at avx2,"
+        echo "by g++ (Release) and clang (Checked); the hash is that of all frames. checked plays the long run; clang leaves"
+        echo "out what plays by the hundred, release plays what compares bytes or counts allocations, asan whole worlds and"
+        echo "what reads files, tsan what works on several threads."
         echo
         echo "Machine: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) hardware threads;" \
             "$(g++ --version | head -1); $(clang++ --version | head -1)."
@@ -83,12 +87,13 @@ write_row() {
         done
     } >"$page.new"
     mv "$page.new" "$page"
+    page_is_old=false
 }
 
 build() {
     cmake --preset "$1" && cmake --build --preset "$1" "${@:2}" -- -k 0
 }
-# What plays by the hundred what others play once: nothing new for a sanitizer.
+# What plays by the hundred what others play once: nothing new for another compiler or a sanitizer.
 by_the_hundred='^(bearing|closing_loads|crushing|cut_coarse|declared_writes|demolition|flight|grinding|hits|inner_edges|inner_edges_break|laid_loads|limits|loads|pressed_debris|quick_breaks|quick_thresholds|random_breaks|random_hits|real_solids|reproduce|rigid_pile|settling|siblings|squeezed|static_sides|thresholds)_test$'
 # What compares bytes, counts what is asked for, or is somebody else's program: what a build without assertions may do otherwise.
 without_assertions='^(allocations|host_physics|recording|scenes|script|simd_levels|small_stack|snapshot|soak|world_hash)_test$|_example$|^frames_are_small$|_of_a_step$'
@@ -131,7 +136,7 @@ packages_part() {
     scripts/test_package.sh || return 1
     echo "installed, built against, removed"
 }
-# A million fragments, at most 4,096 of them alive: memory and frame times flat, handles safe.
+# Fragments by the hundred thousand, at most 4,096 of them alive: memory and frame times flat, handles safe.
 soak_part() {
     build release >/dev/null || return 1
     CULLET_SOAK_FRAGMENTS=$fragments build/release/soak_test >"$logs/soak_test.log" 2>&1

@@ -42,8 +42,7 @@ class Tessellator {
             if (mesh_.triangles.size() + found->second.size() > settings_.most_triangles)
                 return Error{"tessellate: edges of at most " + std::to_string(settings_.longest_edge) +
                              " m would make mesh \"" + mesh_.name + "\" larger than " +
-                             std::to_string(settings_.most_triangles) +
-                             " triangles; raise longest_edge (--edge-m)."};
+                             std::to_string(settings_.most_triangles) + " triangles; raise longest_edge (--edge-m)."};
             split(edge, found->second);
         }
         return std::move(mesh_);

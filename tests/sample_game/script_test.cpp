@@ -134,7 +134,8 @@ TEST(Script, ANameThatIsNotThereIsAnErrorThatKnowsTheNearest) {
         {"if is_over then end",
          "test.lua:1: there is no is_over; give it a value before it is read, such as local is_over = false"},
         {"local x = game.mesh[1]",
-         "test.lua:1: there is no game.mesh.1; there are ball, bowl, box, car, castle, cow, drum, file, given, house, pane, "
+         "test.lua:1: there is no game.mesh.1; there are ball, bowl, box, car, castle, cow, drum, file, given, house, "
+         "pane, "
          "pig, piggy_bank, pole, slab, table, tower, vase, wall"},
     };
     for (const Case& c : cases) EXPECT_EQ(failure_of(c.text), c.sentence) << c.text;
