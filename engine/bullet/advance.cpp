@@ -156,7 +156,7 @@ Mover mover_of(Body& body) {
     Mover out{&body, body.bullet->getWorldTransform(), {}, {}};
     const bool is_moving = body.is_free() || (body.kind == RigidKind::Kinematic && body.bullet->isActive());
     if (!is_moving) return out;
-    out.velocity = Vec3d(from_bullet(body.bullet->getLinearVelocity()));
+    out.velocity = Vec3d(from_bullet(body.bullet->getLinearVelocity()) + body.glance);
     out.spin = Vec3d(from_bullet(body.bullet->getAngularVelocity()));
     return out;
 }

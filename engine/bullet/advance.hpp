@@ -26,7 +26,7 @@ struct Mover {
     bool is_moving() const { return dot(velocity, velocity) + dot(spin, spin) > 0; }
 };
 
-/// At rest, unless the body is free or driven.
+/// At rest, unless the body is free or driven. With what it glances along.
 Mover mover_of(Body& body);
 
 /// How far turning takes a point `reach` away from the centre of mass, at most, m.

@@ -107,6 +107,7 @@ struct Body {
 
     float moved_fraction = 1;     // of this step, less than 1 when stopped at a time of impact
     bool is_fast = false;         // swept in this step
+    Vec3 glance;                  // m/s beside its velocity on this step's way, along what it glances over
     bool is_put_through = false;  // a sheet, by this step
 
     /// The hull frame's transform where the Bullet frame's is `at`.

@@ -984,7 +984,8 @@ void BulletWorld::limit_closing(float dt) {
         for (int k = 0; k < m.manifold->getNumContacts(); ++k) {
             const btManifoldPoint& p = m.manifold->getContactPoint(k);
             const Vec3 point = from_bullet(p.m_positionWorldOnB), normal = from_bullet(p.m_normalWorldOnB);
-            const float way = dot(moving_b.at(point) - moving_a.at(point), normal) * dt;
+            const Vec3 closing = moving_b.at(point) + b.glance - moving_a.at(point) - a.glance;
+            const float way = dot(closing, normal) * dt;
             const float allowed = std::max(p.m_distance1, 0.0f) + pressed_in;
             if (way <= allowed) continue;
             if (a.is_free()) a.moved_fraction = std::min(a.moved_fraction, allowed / way);
@@ -996,9 +997,11 @@ void BulletWorld::limit_closing(float dt) {
 void BulletWorld::take_back_gravity(float dt) {
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
-        if (!body.is_used || !(body.moved_fraction < 1) || !body.is_free()) continue;
+        if (!body.is_used || !body.is_free()) continue;
+        const Vec3 glance = std::exchange(body.glance, {});
+        if (!(body.moved_fraction < 1 || dot(glance, glance) > 0)) continue;
         const btVector3 before = body.bullet->getLinearVelocity(),
-                        now = velocity_of_stopped(before, gravity_, body.moved_fraction, dt);
+                        now = velocity_of_stopped(before, gravity_, body.moved_fraction, dt, glance);
         set_velocities(body, now, body.bullet->getAngularVelocity());
         if (CULLET_CHECKS_ON)
             work_done_.ahead -=
@@ -1018,7 +1021,9 @@ void BulletWorld::integrate(float dt) {
         const bool is_driven = body.kind == RigidKind::Kinematic && body.bullet->isActive();
         if (!is_driven && !body.is_free()) continue;
         btTransform moved;
-        body.bullet->predictIntegratedTransform(body.moved_fraction * dt, moved);
+        btTransformUtil::integrateTransform(body.bullet->getWorldTransform(),
+                                            body.bullet->getLinearVelocity() + to_bullet(body.glance),
+                                            body.bullet->getAngularVelocity(), body.moved_fraction * dt, moved);
         body.bullet->proceedToTransform(moved);
     }
     bring_all_back();

@@ -34,6 +34,10 @@ constexpr float kLeading = 0.001f;  // m behind the corner that leads: what else
 constexpr uint32_t kFastAJob = 8;
 constexpr float kNeverSeen = -1;
 constexpr int kBlows = 4;  // of a pair, each at another corner: the first ones turn the bodies
+// What glances: closes by at most so much of what it goes along, and by at most half of what boxes are grown in a step.
+constexpr double kGlance = 0.2;
+constexpr float kMostLed = kBoxGrowth / 2;  // m
+constexpr double kShortOf = 0.99;           // of the way to the touch, so that the step ends before it
 
 // The points of a hull that lead along `outwards`, of a body that stands where it was stopped.
 template <class Found>
@@ -230,6 +234,7 @@ void Sweeper::list_fast(BulletWorld& world, float dt) {
         brakes_[id].other = kNoRigid;
         if (!body.is_used || body.kind == RigidKind::Static) continue;
         body.moved_fraction = 1;
+        body.glance = {};
         body.is_fast = false;
         const Mover mover = mover_of(body);
         if (!is_far(travel(mover, dt), least_scale, thinnest)) continue;
@@ -310,14 +315,42 @@ bool Sweeper::sweep_slow(BulletWorld& world, uint32_t k, float dt) {
         for (uint32_t n = 0; n < fast.slow_count; ++n)
             sweep_pair(world, a, world.bodies_[rows_[fast.first_row + n].other], dt);
     } else {
-        std::vector<RigidId>& near = world.scratches_.own().bodies;
-        find_near(world, fast.swept, near);
-        for (const RigidId id : near)
-            if (id != a.id && !world.bodies_[id].is_fast) sweep_pair(world, a, world.bodies_[id], dt);
+        sweep_near(world, fast, dt);
     }
+    if (a.moved_fraction < 1) go_along(world, fast, dt);
     if (a.moved_fraction == 1) return false;
     fast.stopped_in = 0;
     return true;
+}
+
+void Sweeper::sweep_near(BulletWorld& world, const Fast& fast, float dt) {
+    std::vector<RigidId>& near = world.scratches_.own().bodies;
+    find_near(world, fast.swept, near);
+    Body& a = world.bodies_[fast.id];
+    for (const RigidId id : near)
+        if (id != a.id && !world.bodies_[id].is_fast) sweep_pair(world, a, world.bodies_[id], dt);
+}
+
+// Its way is bent along what stopped it, so that it comes as near to that at the end of the step. The contact that it
+// meets there takes the speed that leads into it.
+void Sweeper::go_along(BulletWorld& world, Fast& fast, float dt) {
+    Body& a = world.bodies_[fast.id];
+    const Brake brake = brakes_[fast.id];
+    if (!a.is_free() || mover_of(world.bodies_[brake.other]).is_moving()) return;
+    const Vec3d velocity = mover_of(a).velocity, normal(brake.normal);
+    const double closing = -dot(velocity, normal), aside = length(velocity + closing * normal);
+    if (!(closing > 0) || closing > kGlance * aside) return;
+    const float stopped_at = a.moved_fraction;
+    const Vec3 glance = ((1 - kShortOf * static_cast<double>(stopped_at)) * closing * normal).to_float();
+    if (length(glance) * dt > kMostLed) return;
+    a.glance = glance;
+    a.moved_fraction = 1;
+    brakes_[fast.id].other = kNoRigid;
+    sweep_near(world, fast, dt);
+    const bool is_farther = a.moved_fraction > stopped_at;
+    if (!is_farther) a.glance = {}, a.moved_fraction = stopped_at;
+    // What met it from the start still takes its speed.
+    if (!is_farther || brakes_[fast.id].other == kNoRigid) brakes_[fast.id] = brake;
 }
 
 // True: one of the two was stopped.
@@ -348,7 +381,8 @@ bool Sweeper::sweep_fast(BulletWorld& world, uint32_t k, int round, float dt) {
         Neighbour& row = rows_[fast.first_row + fast.slow_count + n];
         Fast& other = fast_[row.other];
         const Body& b = world.bodies_[other.id];
-        if (row.seen_a == a.moved_fraction && row.seen_b == b.moved_fraction) continue;
+        const bool is_led = round == 0 && (dot(a.glance, a.glance) > 0 || dot(b.glance, b.glance) > 0);
+        if (!is_led && row.seen_a == a.moved_fraction && row.seen_b == b.moved_fraction) continue;
         is_any |= sweep_two_fast(world, fast, other, round, dt);
         row.seen_a = a.moved_fraction, row.seen_b = b.moved_fraction;
     }
@@ -360,13 +394,11 @@ uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
     list_fast(world, dt);
     order_fast();
     find_neighbours(world, dt);
-    bool is_any = true;
-    for (int round = 0; round < kRounds && is_any; ++round) {
-        is_any = false;
-        for (uint32_t k = 0; k < fast_.size(); ++k) {
-            if (round == 0) is_any |= sweep_slow(world, k, dt);
-            is_any |= sweep_fast(world, k, round, dt);
-        }
+    bool is_any = false;
+    for (uint32_t k = 0; k < fast_.size(); ++k) is_any |= sweep_slow(world, k, dt);
+    for (int round = 0; round < kRounds && (round == 0 || is_any); ++round) {
+        if (round > 0) is_any = false;
+        for (uint32_t k = 0; k < fast_.size(); ++k) is_any |= sweep_fast(world, k, round, dt);
     }
     uint32_t stopped = 0;
     for (const Fast& fast : fast_) stopped += world.bodies_[fast.id].moved_fraction < 1;

@@ -3,7 +3,8 @@
 //
 // Sweeping the motion that is about to be made, and not the one before, also stops what a blow has just made fast. The
 // body stands at its time of impact, half a millimetre away, loses the rest of the step and what gravity gave it for
-// that, and meets its contact in the next detect().
+// that, and meets its contact in the next detect(). What glances over something that stands goes on along it: panes at
+// 7 m/s lost a twelfth of their way over a hill of ridges of one degree, at each of which they stood for half a step.
 #pragma once
 #include <atomic>
 #include <vector>
@@ -59,6 +60,8 @@ class Sweeper {
     void find_neighbours(BulletWorld& world, float dt);
     void list_neighbours(BulletWorld& world, uint32_t k, float dt, PairScratch& scratch);
     bool sweep_slow(BulletWorld& world, uint32_t k, float dt);
+    void sweep_near(BulletWorld& world, const Fast& fast, float dt);
+    void go_along(BulletWorld& world, Fast& fast, float dt);
     bool sweep_fast(BulletWorld& world, uint32_t k, int round, float dt);
     bool sweep_two_fast(BulletWorld& world, Fast& fast, Fast& other, int round, float dt);
     void sweep_pair(BulletWorld& world, Body& a, Body& b, float dt);
