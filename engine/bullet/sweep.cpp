@@ -59,16 +59,17 @@ Vec3 was_at(const Body& body, Vec3 point) {
 
 }  // namespace
 
-void Sweeper::stop(Body& body, const Hull& hull, const Body& other, const Hull& other_hull, Vec3 normal, float at) {
-    if (!body.is_fast || !(at < body.moved_fraction)) return;
-    body.moved_fraction = at;
+void Sweeper::stop(Body& body, const Hull& hull, const Body& other, const Hull& other_hull, const Touch& touch) {
+    if (!body.is_fast || !(touch.at < body.moved_fraction)) return;
+    body.moved_fraction = touch.at;
     const auto ordinal = [](const Body& of, const Hull& h) { return h.one_sided ? of.hull_count + h.cell : h.ordinal; };
     brakes_[body.id] = {other.id,
                         ordinal(body, hull),
                         ordinal(other, other_hull),
                         hull.one_sided ? nullptr : &hull,
                         other_hull.one_sided ? nullptr : &other_hull,
-                        normal};
+                        touch.normal,
+                        touch.is_new};
 }
 
 // What stopped a body near the start of its way takes the speed that leads into it, as a blow without restitution.
@@ -168,9 +169,9 @@ void Sweeper::find_near(const BulletWorld& world, const Box& box, std::vector<Ri
     std::sort(near.begin(), near.end());
 }
 
-// Calls touch(p, q, normal from q to p, fraction of the step) for pieces that touch before the two have both stopped.
-template <class Touch>
-void Sweeper::visit_touches(const BulletWorld& world, Body& a, Body& b, float dt, PairScratch& scratch, Touch touch) {
+// Calls found(p, q, touch of p) for pieces that touch before the two have both stopped.
+template <class Found>
+void Sweeper::visit_touches(const BulletWorld& world, Body& a, Body& b, float dt, PairScratch& scratch, Found found) {
     if (a.kind != RigidKind::Dynamic && b.kind != RigidKind::Dynamic) return;
     if (!a.meets_layer_of(b) || world.is_apart_by_order(a.id, b.id)) return;
     const Mover mover_a = mover_of(a), mover_b = mover_of(b);
@@ -189,7 +190,8 @@ void Sweeper::visit_touches(const BulletWorld& world, Body& a, Body& b, float dt
         const double limit = last_fraction(a, b);
         const double t = touch_fraction(world.work_.around, mover_a, p, mover_b, q, dt, limit, axis, known);
         if (t >= limit) return;
-        touch(p, q, axis.to_float(), static_cast<float>(t));
+        const Vec3d met = known.of(p, q);
+        found(p, q, Touch{axis.to_float(), static_cast<float>(t), !(dot(met, met) > 0)});
     };
     for (const Hull* p = a.hulls; p; p = p->next) {
         const float span = dt * last_fraction(a, b);
@@ -208,15 +210,15 @@ void Sweeper::visit_touches(const BulletWorld& world, Body& a, Body& b, float dt
 }
 
 void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
-    visit_touches(world, a, b, dt, world.scratches_.own(), [&](const Hull& p, const Hull& q, Vec3 normal, float t) {
-        stop(a, p, b, q, normal, t);
-        stop(b, q, a, p, -normal, t);
+    visit_touches(world, a, b, dt, world.scratches_.own(), [&](const Hull& p, const Hull& q, const Touch& touch) {
+        stop(a, p, b, q, touch);
+        stop(b, q, a, p, {-touch.normal, touch.at, touch.is_new});
     });
 }
 
 bool Sweeper::touch_on_whole_ways(const BulletWorld& world, Body& a, Body& b, float dt, PairScratch& scratch) {
     bool is_any = false;
-    visit_touches(world, a, b, dt, scratch, [&](const Hull&, const Hull&, Vec3, float) { is_any = true; });
+    visit_touches(world, a, b, dt, scratch, [&](const Hull&, const Hull&, const Touch&) { is_any = true; });
     return is_any;
 }
 
@@ -307,7 +309,7 @@ void Sweeper::list_neighbours(BulletWorld& world, uint32_t k, float dt, PairScra
     }
 }
 
-// True: it was stopped.
+// True: it was stopped, or led along what would have.
 bool Sweeper::sweep_slow(BulletWorld& world, uint32_t k, float dt) {
     Fast& fast = fast_[k];
     Body& a = world.bodies_[fast.id];
@@ -317,9 +319,9 @@ bool Sweeper::sweep_slow(BulletWorld& world, uint32_t k, float dt) {
     } else {
         sweep_near(world, fast, dt);
     }
-    if (a.moved_fraction < 1) go_along(world, fast, dt);
     if (a.moved_fraction == 1) return false;
     fast.stopped_in = 0;
+    go_along(world, fast, dt);
     return true;
 }
 
@@ -336,7 +338,9 @@ void Sweeper::sweep_near(BulletWorld& world, const Fast& fast, float dt) {
 void Sweeper::go_along(BulletWorld& world, Fast& fast, float dt) {
     Body& a = world.bodies_[fast.id];
     const Brake brake = brakes_[fast.id];
-    if (!a.is_free() || mover_of(world.bodies_[brake.other]).is_moving()) return;
+    // What lies in something is not led about in it.
+    if (!brake.is_new || a.overlap > kMet || !a.is_free()) return;
+    if (mover_of(world.bodies_[brake.other]).is_moving()) return;
     const Vec3d velocity = mover_of(a).velocity, normal(brake.normal);
     const double closing = -dot(velocity, normal), aside = length(velocity + closing * normal);
     if (!(closing > 0) || closing > kGlance * aside) return;
@@ -381,7 +385,8 @@ bool Sweeper::sweep_fast(BulletWorld& world, uint32_t k, int round, float dt) {
         Neighbour& row = rows_[fast.first_row + fast.slow_count + n];
         Fast& other = fast_[row.other];
         const Body& b = world.bodies_[other.id];
-        const bool is_led = round == 0 && (dot(a.glance, a.glance) > 0 || dot(b.glance, b.glance) > 0);
+        // Those behind are led after they were seen.
+        const bool is_led = round <= 1 && (dot(a.glance, a.glance) > 0 || dot(b.glance, b.glance) > 0);
         if (!is_led && row.seen_a == a.moved_fraction && row.seen_b == b.moved_fraction) continue;
         is_any |= sweep_two_fast(world, fast, other, round, dt);
         row.seen_a = a.moved_fraction, row.seen_b = b.moved_fraction;
@@ -394,11 +399,13 @@ uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
     list_fast(world, dt);
     order_fast();
     find_neighbours(world, dt);
-    bool is_any = false;
-    for (uint32_t k = 0; k < fast_.size(); ++k) is_any |= sweep_slow(world, k, dt);
-    for (int round = 0; round < kRounds && (round == 0 || is_any); ++round) {
-        if (round > 0) is_any = false;
-        for (uint32_t k = 0; k < fast_.size(); ++k) is_any |= sweep_fast(world, k, round, dt);
+    bool is_any = true;
+    for (int round = 0; round < kRounds && is_any; ++round) {
+        is_any = false;
+        for (uint32_t k = 0; k < fast_.size(); ++k) {
+            if (round == 0) is_any |= sweep_slow(world, k, dt);
+            is_any |= sweep_fast(world, k, round, dt);
+        }
     }
     uint32_t stopped = 0;
     for (const Fast& fast : fast_) stopped += world.bodies_[fast.id].moved_fraction < 1;

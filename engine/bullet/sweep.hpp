@@ -45,8 +45,14 @@ class Sweeper {
         uint32_t ordinal = 0, other_ordinal = 0;            // of the pieces that met
         const Hull *hull = nullptr, *other_hull = nullptr;  // null: a triangle
         Vec3 normal;                                        // from the other one towards the body
+        bool is_new = false;                                // the two had no contact in this step
     };
-    void stop(Body& body, const Hull& hull, const Body& other, const Hull& other_hull, Vec3 normal, float at);
+    struct Touch {
+        Vec3 normal;  // towards whom it is told of
+        float at;     // fraction of the step
+        bool is_new;
+    };
+    void stop(Body& body, const Hull& hull, const Body& other, const Hull& other_hull, const Touch& touch);
     static void slow_spins(Body& a, Body& b, Vec3 place, Vec3 normal, float closing);
     static bool stop_closing(BulletWorld& world, Body& a, const Hull& p, Body& b, const Hull& q, Vec3 normal);
     static void find_near(const BulletWorld& world, const Box& box, std::vector<RigidId>& near);
@@ -54,8 +60,8 @@ class Sweeper {
     void list_fast(BulletWorld& world, float dt);
     void order_fast();
     void find_fast(uint32_t k, std::vector<uint32_t>& near) const;
-    template <class Touch>
-    static void visit_touches(const BulletWorld& world, Body& a, Body& b, float dt, PairScratch& scratch, Touch touch);
+    template <class Found>
+    static void visit_touches(const BulletWorld& world, Body& a, Body& b, float dt, PairScratch& scratch, Found found);
     static bool touch_on_whole_ways(const BulletWorld& world, Body& a, Body& b, float dt, PairScratch& scratch);
     void find_neighbours(BulletWorld& world, float dt);
     void list_neighbours(BulletWorld& world, uint32_t k, float dt, PairScratch& scratch);

@@ -270,6 +270,14 @@ Ground random_hill(Chance& chance) {
             grid("finest hill", other, even_cuts(kLow, kHigh, 0.05f), even_cuts(-kSide, kSide, 0.05f), hill), true};
 }
 
+Ground random_ridges(Chance& chance) {
+    const float middle = 0.5f * (kLow + kHigh), radius = chance.between(36, 50), cell = chance.between(0.3f, 0.9f);
+    const Height hill = [=](float x, float) { return -0.5f * (x - middle) * (x - middle) / radius; };
+    Chance other = chance;
+    return {grid("ridges", chance, even_cuts(kLow, kHigh, cell), even_cuts(-kSide, kSide, cell), hill),
+            grid("finest hill", other, even_cuts(kLow, kHigh, 0.05f), even_cuts(-kSide, kSide, 0.05f), hill), true};
+}
+
 Floor cut_in_four(const Floor& floor) {
     Floor fine = floor;
     for (FloorPart& part : fine.parts) {

@@ -47,6 +47,8 @@ Ground random_ground(Chance& chance);
 Ground random_flat_ground(Chance& chance);
 /// or always.
 Ground random_hill(Chance& chance);
+/// One round hill of ridges of half a degree to a degree and a half, 0.3 to 0.9 m apart.
+Ground random_ridges(Chance& chance);
 /// The same surface, each triangle of it cut in four.
 Floor cut_in_four(const Floor& floor);
 
