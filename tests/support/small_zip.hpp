@@ -19,7 +19,7 @@ inline uint32_t crc32_of(const std::string& bytes) {
 inline std::string small_zip(const std::vector<std::pair<std::string, std::string>>& files) {
     const auto number = [](uint64_t value, int bytes) {
         std::string out;
-        for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i));
+        for (int i = 0; i < bytes; ++i, value >>= 8) out += static_cast<char>(value & 0xff);
         return out;
     };
     std::string all, directory;
