@@ -36,6 +36,7 @@ constexpr float kNeverSeen = -1;
 constexpr int kBlows = 4;  // of a pair, each at another corner: the first ones turn the bodies
 // What glances: closes by at most so much of what it goes along, and by at most half of what boxes are grown in a step.
 constexpr double kGlance = 0.2;
+constexpr float kLeastLed = 0.001f;
 constexpr float kMostLed = kBoxGrowth / 2;  // m
 constexpr double kShortOf = 0.99;           // of the way to the touch, so that the step ends before it
 
@@ -338,12 +339,14 @@ void Sweeper::sweep_near(BulletWorld& world, const Fast& fast, float dt) {
 void Sweeper::go_along(BulletWorld& world, Fast& fast, float dt) {
     Body& a = world.bodies_[fast.id];
     const Brake brake = brakes_[fast.id];
-    // What lies in something is not led about in it.
-    if (!brake.is_new || a.overlap > kMet || !a.is_free()) return;
-    if (mover_of(world.bodies_[brake.other]).is_moving()) return;
+    // What lies in something is not led about in it. A ball touches in one point, whose contact leads it better: over
+    // triangles of a centimetre it hopped by 0.3 mm.
+    if (!brake.is_new || a.overlap > kMet || !a.is_free() || !brake.hull || brake.hull->face_count == 0) return;
+    Body& other = world.bodies_[brake.other];
+    if (mover_of(other).is_moving()) return;
     const Vec3d velocity = mover_of(a).velocity, normal(brake.normal);
     const double closing = -dot(velocity, normal), aside = length(velocity + closing * normal);
-    if (!(closing > 0) || closing > kGlance * aside) return;
+    if (closing * dt < scale_of(a, other) * kLeastLed || closing > kGlance * aside) return;  // contacts take what is less
     const float stopped_at = a.moved_fraction;
     const Vec3 glance = ((1 - kShortOf * static_cast<double>(stopped_at)) * closing * normal).to_float();
     if (length(glance) * dt > kMostLed) return;
