@@ -13,7 +13,7 @@ namespace {
 constexpr float kFlush = 0.0005f;  // m, of scale 1, see lengths.hpp
 // A normal within a twentieth of a degree of a face's is that face's, and a neighbour that rises by less in the
 // direction of a normal does not lie in its way. At one degree balls at 20 m/s hop by a centimetre.
-constexpr float kFacing = 0.9999996f;
+constexpr float kFacing = 0.9999996f, kNearlyFacing = 0.99f;
 constexpr float kRise = 0.001f;
 // A neighbour covers a face that it goes on before: within 60 degrees of the face's normal. Its own surface then leads
 // past the face: faces of it that look the same way or against it, within 45 degrees, are no surface to come out of.
@@ -328,6 +328,9 @@ Push turn_to_flush_face(const Surroundings& around, const Touched& touched, std:
     // What reaches far behind that face did not come over it: a vase's foot of many facets stands on a floor.
     const double gap = gap_along(touched.points, touched.hull.world, Vec3d(open));
     if (gap < -static_cast<double>(kBehind * scale_of(touched.hull, touched.piece))) return Push::AsFound;
+    // It lies on a face that no other goes on, beside the open one: a pane was held by a seam below it as by its own side.
+    const bool is_own_face = touched.hull.covered[facing.face] == 0 && !(touched.hull.flush >> facing.face & 1);
+    if (facing.cosine > kNearlyFacing && is_own_face) return Push::AsFound;
     if (facing.cosine > kFacing) {
         if (touched.hull.covered[facing.face] == 0) return Push::AsFound;
         for (const Vec3 place : places)
