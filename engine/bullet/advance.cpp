@@ -339,6 +339,10 @@ double touch_fraction(const Surroundings& around, const Mover& a, const Hull& hu
             axis = closest.axis;
             if (closest.is_beyond) return limit;
             if (closest.is_apart || round == 0) gap = gap_along(*now_a, *now_b, axis) - margins;
+            if (round == 0 && gap < -scale * kDeeper && !(a.body->is_free() && b.body->is_free())) {
+                axis = flattest_near(a, hull_a, b, hull_b, axis);
+                gap = gap_along(*now_a, *now_b, axis) - margins;
+            }
             if (is_at_stop || gap < (round == 0 ? scale * kTouching : stop)) {
                 const Meeting meeting{around, a, b, hull_a, hull_b, *now_a, *now_b, at_a, at_b, closest};
                 Push push = meeting.turn_on(true, axis);
