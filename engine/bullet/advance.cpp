@@ -9,6 +9,8 @@ constexpr float kThicknessShare = 0.1f;
 // Lengths are those of pieces of scale 1, see lengths.hpp.
 constexpr double kStop = 0.0005;  // m, the gap at which a sweep ends
 constexpr double kAim = 0.0001;   // m: an advance aims this much past the gap to stop at, so that it ends in few rounds
+// Cosines, of a degree, and of the ten by which the axis of two that just touch is off on a box of 2 km.
+constexpr double kSameWay = 0.9998, kAboutTheSameWay = 0.985;
 constexpr double kTouching = 0.001;  // m: pieces nearer than this at the start touch already
 // How much deeper touching pieces may go in a step, m; two free ones also a share of the thinner one's width, until
 // they are a third of it in each other: slabs of a house that comes down turn into each other by centimetres, and with
@@ -256,8 +258,8 @@ Push Meeting::turn_on(bool is_of_b, Vec3d& axis) const {
 // The axis of a contact may be off that of a large face by a tenth of a degree. The far end of the face then seems to
 // lie millimetres deep, and what slides on it would not move at all: of both pieces' faces that look the same way the
 // one along which they are the farthest apart is better.
-Vec3d flattest_near(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, Vec3d met) {
-    constexpr double kSameWay = 0.9998;  // cosine, of a degree
+Vec3d flattest_near(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, Vec3d met,
+                    double least_cosine) {
     Vec3d best = met;
     double most = gap_along(hull_a.world, hull_b.world, met);
     for (const bool is_of_b : {true, false}) {
@@ -266,7 +268,7 @@ Vec3d flattest_near(const Mover& a, const Hull& hull_a, const Mover& b, const Hu
         for (uint32_t f = 0; f < hull.face_count; ++f) {
             const Vec3d out(hull.one_sided ? hull.face_normal[f] : rotation * hull.face_normal[f]);
             const Vec3d axis = is_of_b ? out : -1.0 * out;
-            if (!(dot(axis, met) > kSameWay)) continue;
+            if (!(dot(axis, met) > least_cosine)) continue;
             const double gap = gap_along(hull_a.world, hull_b.world, axis);
             if (gap > most) most = gap, best = axis;
         }
@@ -319,7 +321,7 @@ double touch_fraction(const Surroundings& around, const Mover& a, const Hull& hu
     if (is_axis_fixed) {
         const bool are_free = a.body->is_free() && b.body->is_free();
         const bool is_deep = !are_free && gap_along(hull_a.world, hull_b.world, met) - margins < -scale * kDeeper;
-        axis = is_deep ? flattest_near(a, hull_a, b, hull_b, met) : met;
+        axis = is_deep ? flattest_near(a, hull_a, b, hull_b, met, kSameWay) : met;
     }
     const bool is_lively = (turning + std::max(length(first), is_split ? length(second) : 0)) * dt > scale * kLively;
     for (int round = 0; round < kRounds; ++round) {
@@ -340,7 +342,7 @@ double touch_fraction(const Surroundings& around, const Mover& a, const Hull& hu
             if (closest.is_beyond) return limit;
             if (closest.is_apart || round == 0) gap = gap_along(*now_a, *now_b, axis) - margins;
             if (round == 0 && gap < -scale * kDeeper && !(a.body->is_free() && b.body->is_free())) {
-                axis = flattest_near(a, hull_a, b, hull_b, axis);
+                axis = flattest_near(a, hull_a, b, hull_b, axis, kAboutTheSameWay);
                 gap = gap_along(*now_a, *now_b, axis) - margins;
             }
             if (is_at_stop || gap < (round == 0 ? scale * kTouching : stop)) {
