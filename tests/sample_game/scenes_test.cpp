@@ -261,6 +261,8 @@ TEST_P(EveryScene, GivesInThisBuildTheHashesThatEveryBuildGives) {
     const std::map<std::string, KnownChain> known = known_chains();
     const auto of = known.find(GetParam().name);
     ASSERT_NE(of, known.end()) << "no line of" << kKnownChains << "; CULLET_WRITE_CHAINS=1 writes it";
+    if (std::getenv("CULLET_SCENE_FRAMES") && own.size() < of->second.frames)
+        GTEST_SKIP() << "CULLET_SCENE_FRAMES plays fewer frames than the list is of";
     ASSERT_GE(own.size(), of->second.frames);
     EXPECT_EQ(chain_after(own, of->second.frames), of->second.chain)
         << "a change that is meant to change what happens writes the list anew with CULLET_WRITE_CHAINS=1";
