@@ -54,8 +54,12 @@ bool is_finite(Vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-bool is_same(Quat a, Quat b) {
-    return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
+// A quaternion and its negative are one rotation.
+bool are_one_turn(Quat a, Quat b) {
+    const auto is_same = [a, b](float sign) {
+        return a.x == sign * b.x && a.y == sign * b.y && a.z == sign * b.z && a.w == sign * b.w;
+    };
+    return is_same(1) || is_same(-1);
 }
 
 void wake_body(WorldData& d, Row<Bodies> body) {
@@ -78,9 +82,9 @@ Result<void> World::set_pose(BodyId id, const Pose& pose) {
                      " is made of static triangles in world coordinates; remove it and add it where it is to stand."};
     if (contents_->recorder) contents_->recorder->set_pose(id, pose);
     const Pose unit{pose.position, normalised(pose.orientation)};
-    const bool is_there =
-        bodies.position[body] == unit.position &&
-        (is_same(bodies.orientation[body], unit.orientation) || is_same(bodies.orientation[body], pose.orientation));
+    const Quat stands = bodies.orientation[body];
+    const bool is_there = bodies.position[body] == unit.position &&
+                          (are_one_turn(stands, unit.orientation) || are_one_turn(stands, pose.orientation));
     if (is_there) {
         bodies.previous_position.set(body, bodies.position[body]);
         bodies.previous_orientation[body] = bodies.orientation[body];
