@@ -1,6 +1,8 @@
 #include "systems/hulls/extreme_points.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
 
 #include "engine/assert.hpp"
 
@@ -16,9 +18,42 @@ constexpr uint32_t kNoPoint = 0xffffffffu;
 struct Face {
     uint8_t corner[3];  // counter-clockwise from outside
     bool is_used = false;
-    Vec3 normal;  // zero for a face without area, above which nothing lies
-    float height = 0;
-    float gap(Vec3 p) const { return dot(normal, p) - height; }
+};
+
+constexpr uint32_t kLanes = 4;
+typedef float Lanes __attribute__((vector_size(4 * kLanes)));
+typedef int32_t LaneNumbers __attribute__((vector_size(4 * kLanes)));
+
+bool is_any(LaneNumbers mask) {
+    int64_t halves[2];
+    std::memcpy(halves, &mask, sizeof halves);
+    return (halves[0] | halves[1]) != 0;
+}
+
+Lanes load(const float* from) {
+    Lanes lanes;
+    std::memcpy(&lanes, from, sizeof lanes);
+    return lanes;
+}
+
+/// Planes of faces, four side by side: what lies above which of them is most of the work. A number that has no plane
+/// has nothing above it, up to the next multiple of four.
+struct Planes {
+    float x[kMostFaces], y[kMostFaces], z[kMostFaces], height[kMostFaces];
+
+    void clear(uint32_t f) { x[f] = y[f] = z[f] = 0, height[f] = std::numeric_limits<float>::infinity(); }
+    void clear_four_from(uint32_t f) {
+        for (uint32_t k = f; k < f + kLanes; ++k) clear(k);
+    }
+    /// A normal of zero: the face has no area, and nothing lies above it.
+    void set(uint32_t f, Vec3 normal, float at) { x[f] = normal.x, y[f] = normal.y, z[f] = normal.z, height[f] = at; }
+    void copy(uint32_t f, const Planes& from, uint32_t of) {
+        x[f] = from.x[of], y[f] = from.y[of], z[f] = from.z[of], height[f] = from.height[of];
+    }
+    /// How far the point lies above four of them from f on, as dot(normal, p) - height.
+    Lanes gaps(uint32_t f, Vec3 p) const {
+        return load(x + f) * p.x + load(y + f) * p.y + load(z + f) * p.z - load(height + f);
+    }
 };
 
 class Hull {
@@ -33,7 +68,10 @@ class Hull {
         chosen.face_count = 0;
         if (points_.empty()) return;
         if (start()) {
-            for (uint32_t i = 0; i < points_.size(); ++i) file(i, faces_, face_count_);
+            for (uint32_t i = 0; i < points_.size(); ++i) {
+                file(i, planes_, face_count_);
+                if (face_of_[i] != kNoFace) outside_[outside_count_++] = static_cast<uint16_t>(i);
+            }
             const uint32_t room = most + has_tip_;
             for (uint32_t next = farthest(); next != kNoPoint; next = farthest()) {
                 if (is_corner(next)) {  // of a shell without depth, whose margin is 0: above itself by rounding
@@ -104,42 +142,68 @@ class Hull {
         return true;
     }
 
-    Face* make_face(uint32_t a, uint32_t b, uint32_t c) {
+    uint32_t make_face(uint32_t a, uint32_t b, uint32_t c) {
         uint32_t f = 0;
         while (f < face_count_ && faces_[f].is_used) ++f;
-        if (f == face_count_) ++face_count_;
         CULLET_ASSERT(f < kMostFaces, "no face is left for a hull of %u points", corner_count_);
+        if (f == face_count_ && face_count_++ % kLanes == 0) planes_.clear_four_from(f);
         Face& face = faces_[f];
-        face = {};
         face.is_used = true;
         const uint32_t corner[3] = {a, b, c};
         for (int k = 0; k < 3; ++k) {
             face.corner[k] = static_cast<uint8_t>(corner[k]);
             face_of_edge_[corner[k]][corner[(k + 1) % 3]] = static_cast<uint8_t>(f);
         }
-        face.normal = normalised(cross(corner_[b] - corner_[a], corner_[c] - corner_[a]));
-        face.height = dot(face.normal, corner_[a]);
-        return &face;
+        const Vec3 normal = normalised(cross(corner_[b] - corner_[a], corner_[c] - corner_[a]));
+        planes_.set(f, normal, dot(normal, corner_[a]));
+        return f;
     }
 
-    // The face that point i lies farthest above, kNearFaces where that is no more than enough, kNoFace inside of all.
-    void file(uint32_t i, const Face* faces, uint32_t count) {
+    // The face that point i lies farthest above, the first of equals; kNearFaces where that is no more than enough,
+    // kNoFace inside of all.
+    void file(uint32_t i, const Planes& planes, uint32_t count) {
+        const Vec3 p = points_[i];
+        Lanes farthest{};
+        LaneNumbers from{};  // the first of the four planes
+        for (uint32_t f = 0; f < count; f += kLanes) {
+            const Lanes gap = planes.gaps(f, p);
+            const LaneNumbers is_farther = gap > farthest;
+            farthest = is_farther ? gap : farthest;
+            from = is_farther ? LaneNumbers{} + static_cast<int32_t>(f) : from;
+        }
         float most = 0;
-        uint8_t face = kNoFace;
-        for (uint32_t f = 0; f < count; ++f) {
-            if (!faces[f].is_used) continue;
-            if (const float gap = faces[f].gap(points_[i]); gap > most) most = gap, face = static_cast<uint8_t>(f);
+        int32_t face = kNoFace;
+        for (uint32_t k = 0; k < kLanes && is_any(farthest > 0); ++k) {
+            const int32_t f = from[k] + static_cast<int32_t>(k);
+            if (farthest[k] > most || (farthest[k] > 0 && farthest[k] == most && f < face))
+                most = farthest[k], face = f;
         }
         above_[i] = most;
-        face_of_[i] = most > enough_ || face == kNoFace ? face : kNearFaces;
+        face_of_[i] = most > enough_ || face == kNoFace ? static_cast<uint8_t>(face) : kNearFaces;
     }
     bool is_above(uint32_t i) const { return face_of_[i] < kMostFaces; }
 
     uint32_t farthest() const {
         uint32_t at = kNoPoint;
-        for (uint32_t i = 0; i < points_.size(); ++i)
-            if (is_above(i) && (at == kNoPoint || above_[i] > above_[at])) at = i;
+        float most = -1;
+        for (uint32_t k = 0; k < outside_count_; ++k) {
+            const uint32_t i = outside_[k];
+            if (is_above(i) && above_[i] > most) at = i, most = above_[i];
+        }
         return at;
+    }
+
+    // Faces that are seen have gone, a cone has come for them.
+    void file_again(uint32_t i, const bool* is_seen, const Planes& cone, uint32_t count, const uint8_t* number) {
+        const uint8_t before = face_of_[i];
+        if (is_above(i) && !is_seen[before]) return;
+        file(i, cone, count);
+        if (is_above(i))
+            face_of_[i] = number[face_of_[i]];
+        else if (before != kNearFaces)
+            file(i, planes_, face_count_);  // it may lie above one that was not seen
+        else
+            face_of_[i] = kNearFaces;
     }
 
     // Replaces the faces that see the point by a cone from their outline. Nearly flat ones count as not seeing it, so
@@ -148,10 +212,11 @@ class Hull {
         const Vec3 p = points_[i];
         bool is_seen[kMostFaces];
         uint32_t free_faces = kMostFaces - face_count_;
-        for (uint32_t f = 0; f < face_count_; ++f) {
-            is_seen[f] = faces_[f].is_used && faces_[f].gap(p) > 0.1f * enough_;
-            free_faces += !faces_[f].is_used || is_seen[f];
+        for (uint32_t f = 0; f < face_count_; f += kLanes) {
+            const LaneNumbers sees = planes_.gaps(f, p) > 0.1f * enough_;
+            for (uint32_t k = 0; k < kLanes; ++k) is_seen[f + k] = sees[k] != 0;
         }
+        for (uint32_t f = 0; f < face_count_; ++f) free_faces += !faces_[f].is_used || is_seen[f];
         uint32_t outline[kMostFaces][2], count = 0;
         for (uint32_t f = 0; f < face_count_; ++f) {
             if (!is_seen[f]) continue;
@@ -165,25 +230,23 @@ class Hull {
         }
         const uint32_t apex = corner_count_;
         add_corner(i);
-        for (uint32_t f = 0; f < face_count_; ++f) faces_[f].is_used = faces_[f].is_used && !is_seen[f];
-        Face cone[kMostFaces];
+        for (uint32_t f = 0; f < face_count_; ++f)
+            if (is_seen[f]) faces_[f].is_used = false, planes_.clear(f);
+        Planes cone;
         uint8_t number[kMostFaces];
         for (uint32_t k = 0; k < count; ++k) {
-            const Face* const made = make_face(outline[k][0], outline[k][1], apex);
-            cone[k] = *made;
-            number[k] = static_cast<uint8_t>(made - faces_);
+            const uint32_t made = make_face(outline[k][0], outline[k][1], apex);
+            if (k % kLanes == 0) cone.clear_four_from(k);
+            cone.copy(k, planes_, made);
+            number[k] = static_cast<uint8_t>(made);
         }
-        for (uint32_t q = 0; q < points_.size(); ++q) {
-            const uint8_t before = face_of_[q];
-            if (before == kNoFace || (is_above(q) && !is_seen[before])) continue;
-            file(q, cone, count);
-            if (is_above(q))
-                face_of_[q] = number[face_of_[q]];
-            else if (before != kNearFaces)
-                file(q, faces_, face_count_);  // it may lie above one that was not seen
-            else
-                face_of_[q] = kNearFaces;
+        uint32_t kept = 0;
+        for (uint32_t k = 0; k < outside_count_; ++k) {
+            const uint16_t q = outside_[k];
+            if (face_of_[q] != kNoFace) file_again(q, is_seen, cone, count, number);
+            if (face_of_[q] != kNoFace) outside_[kept++] = q;
         }
+        outside_count_ = kept;
         return true;
     }
 
@@ -193,8 +256,11 @@ class Hull {
     Vec3 corner_[kMostCorners];
     uint32_t source_[kMostCorners], corner_count_ = 0;
     Face faces_[kMostFaces];
+    Planes planes_;
     uint32_t face_count_ = 0;  // none is used from here on
     uint8_t face_of_edge_[kMostCorners][kMostCorners];
+    uint16_t outside_[kMostExtremeCandidates];  // points that are not inside of all faces, rising
+    uint32_t outside_count_ = 0;
     uint8_t face_of_[kMostExtremeCandidates];
     float above_[kMostExtremeCandidates];
 };
