@@ -111,7 +111,7 @@ preset_part() {
     clang) which+=(-E "$by_the_hundred") ;;
     debug) long_run=(CULLET_SCENE_FRAMES=30) which+=(-E "$by_the_hundred") ;;
     asan) long_run=(CULLET_SCENE_FRAMES=30) which+=(-R "$with_memory") ;;
-    tsan) long_run=(CULLET_SCENE_FRAMES=30) which+=(-R "$with_threads") ;;
+    tsan) long_run=(CULLET_SCENE_FRAMES=30 "TSAN_OPTIONS=suppressions=$PWD/tests/thread_sanitizer.txt") which+=(-R "$with_threads") ;;
     esac
     cmake --preset "$1" || return 1
     mapfile -t targets < <(ctest --test-dir "build/$1" -N "${which[@]}" | grep -oE '[a-z_]+_(test|example|step)$')
