@@ -328,7 +328,8 @@ Push turn_to_flush_face(const Surroundings& around, const Touched& touched, std:
     // What reaches far behind that face did not come over it: a vase's foot of many facets stands on a floor.
     const double gap = gap_along(touched.points, touched.hull.world, Vec3d(open));
     if (gap < -static_cast<double>(kBehind * scale_of(touched.hull, touched.piece))) return Push::AsFound;
-    // It lies on a face that no other goes on, beside the open one: a pane was held by a seam below it as by its own side.
+    // It lies on a face that no other goes on, beside the open one: a pane was held by a seam below it as by its own
+    // side.
     const bool is_own_face = touched.hull.covered[facing.face] == 0 && !(touched.hull.flush >> facing.face & 1);
     if (facing.cosine > kNearlyFacing && is_own_face) return Push::AsFound;
     if (facing.cosine > kFacing) {

@@ -346,7 +346,8 @@ void Sweeper::go_along(BulletWorld& world, Fast& fast, float dt) {
     if (mover_of(other).is_moving()) return;
     const Vec3d velocity = mover_of(a).velocity, normal(brake.normal);
     const double closing = -dot(velocity, normal), aside = length(velocity + closing * normal);
-    if (closing * dt < scale_of(a, other) * kLeastLed || closing > kGlance * aside) return;  // contacts take what is less
+    if (closing * dt < scale_of(a, other) * kLeastLed || closing > kGlance * aside)
+        return;  // contacts take what is less
     const float stopped_at = a.moved_fraction;
     const Vec3 glance = ((1 - kShortOf * static_cast<double>(stopped_at)) * closing * normal).to_float();
     if (length(glance) * dt > kMostLed) return;
