@@ -796,15 +796,17 @@ void BulletWorld::gather_loads(float dt) {
     for (const SortedManifold& m : manifolds_) {
         if (!m.manifold) continue;
         const Body &a = bodies_[m.a], &b = bodies_[m.b];
-        if (!a.is_free() && !b.is_free() && !is_driven_in(a, b)) continue;
+        const bool is_solved = a.is_free() || b.is_free();
+        if (!is_solved && !a.is_held && !b.is_held && !is_driven_in(a, b)) continue;
         const Moving moving_a(a), moving_b(b);
         for (int k = 0; k < m.manifold->getNumContacts(); ++k) {
             const btManifoldPoint& p = m.manifold->getContactPoint(k);
             const Vec3 point = 0.5f * (from_bullet(p.m_positionWorldOnA) + from_bullet(p.m_positionWorldOnB));
             const Vec3 normal = from_bullet(p.m_normalWorldOnB);
+            const float impulse = is_solved ? p.m_appliedImpulse : 0;
             const float closing =
                 dot(moving_b.at(point) - moving_a.at(point), normal) - std::max(p.m_distance1, 0.0f) / dt;
-            loads_.push_back({m.a, m.b, m.cell_a, m.cell_b, point, normal, p.m_distance1, closing, p.m_appliedImpulse});
+            loads_.push_back({m.a, m.b, m.cell_a, m.cell_b, point, normal, p.m_distance1, closing, impulse});
         }
     }
 }

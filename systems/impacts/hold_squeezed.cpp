@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "components/body_id.hpp"
 #include "systems/bodies/thresholds.hpp"
@@ -13,6 +14,9 @@ namespace {
 constexpr double kSqueezed = 0.01;  // of the size: what cannot give way is held from there on
 // What yields in its shape does so until it is as flat as its model says, or as this share of its size.
 constexpr double kFlatShare = 0.03;
+// Of the room, that the centre of what is in both alike is away from either, at least: none is kept for what goes
+// along.
+constexpr float kLeastAway = 1e-3f;
 
 double size_of(const Bodies& bodies, Row<Bodies> body) {
     return 2 * double{bodies.radius[body]};
@@ -23,9 +27,43 @@ bool is_there(const Bodies& bodies, Row<Bodies> body, uint32_t generation) {
            static_cast<BodyKind>(bodies.kind[body]) != BodyKind::Free;
 }
 
+Vec3 velocity_at(const Bodies& bodies, Row<Bodies> b, Vec3 point) {
+    return bodies.velocity[b] + cross(bodies.spin[b], point - centre_of(bodies, b));
+}
+
 // J, of moving it so.
 double work_against(const Bodies& bodies, Row<Bodies> body, Vec3 way, Vec3 gravity) {
     return -bodies.mass[body] * double{dot(gravity, way)};
+}
+
+uint32_t row_of(const Squeezes& squeezes, Row<Bodies> body) {
+    uint32_t row = 0;
+    while (row < squeezes.size() && squeezes.body[row] != body) ++row;
+    return row < squeezes.size() ? row : kNone;
+}
+bool goes_along(const Squeezes& squeezes, uint32_t row) {
+    return row != kNone && !(squeezes.share[row] > 0);
+}
+
+// It comes apart under what does not yield.
+bool may_come_apart(const WorldRows& rows, const DamageSettings& settings, Row<Bodies> body) {
+    const Row<Structures> structure = rows.bodies.structure[body];
+    return structure.exists() && rows.bodies.is_breakable[body] && calls_of(rows.structures, structure).bears_loads &&
+           may_be_crushed(rows.structures, structure, settings);
+}
+
+// It makes way for nobody, or for who is in it alone: nothing is left that could give way before. What is free may be
+// pushed on, bends, or is held like that once it can do neither.
+bool stays(const WorldRows& rows, const DamageSettings& settings, Row<Bodies> who) {
+    const Bodies& bodies = rows.bodies;
+    if (!who.exists()) return true;
+    const auto kind = static_cast<BodyKind>(bodies.kind[who]);
+    if (kind == BodyKind::Dynamic) {
+        const uint32_t row = row_of(rows.squeezes, who);
+        return row != kNone && !goes_along(rows.squeezes, row);
+    }
+    return kind != BodyKind::Static || !may_come_apart(rows, settings, who) ||
+           !may_be_halved(rows.structures, bodies.structure[who], settings);
 }
 
 struct Holding {
@@ -34,7 +72,8 @@ struct Holding {
     WorldRows& rows;
     DamageCounts& counts;
 
-    void begin(Row<Bodies> body, const Between& between, double width);
+    /// In both alike, or, without a width, going as `by` does: what is against it gives way.
+    void begin(Row<Bodies> body, const Between& between, std::optional<double> width);
     /// False: it has room again, or one of the three is gone.
     bool go_on(uint32_t row);
     void let_go(uint32_t row);
@@ -56,10 +95,10 @@ void Holding::put(Row<Bodies> body, Vec3 velocity, Vec3 way) {
     bodies.position.set(body, rigid.pose(body).position);
 }
 
-void Holding::begin(Row<Bodies> body, const Between& between, double width) {
+void Holding::begin(Row<Bodies> body, const Between& between, std::optional<double> width) {
     Squeezes& squeezes = rows.squeezes;
     Bodies& bodies = rows.bodies;
-    const uint32_t row = squeezes.append(1);
+    const uint32_t before = row_of(squeezes, body), row = before != kNone ? before : squeezes.append(1);
     if (row == kNone) return;
     const Row<Bodies> by = between.by->toucher, against = between.against->toucher;
     const Vec3 push = rotate(bodies.orientation[body], normalised(between.by->push - between.against->push).to_float());
@@ -70,16 +109,21 @@ void Holding::begin(Row<Bodies> body, const Between& between, double width) {
     squeezes.generation_by[row] = bodies.generation[by];
     squeezes.generation_against[row] = bodies.generation[against];
     squeezes.push.set(row, push);
-    squeezes.room[row] = static_cast<float>(width - between.sunk);
-    const double from = std::max(0.0, -dot(between.by->place, between.by->push)),
-                 to = std::max(0.0, -dot(between.against->place, between.against->push));
-    squeezes.share[row] = from + to > 0 ? static_cast<float>(from / (from + to)) : 0.5f;
+    if (width) {
+        squeezes.room[row] = static_cast<float>(*width - between.sunk);
+        const double from = std::max(0.0, -dot(between.by->place, between.by->push)),
+                     to = std::max(0.0, -dot(between.against->place, between.against->push));
+        const float share = from + to > 0 ? static_cast<float>(from / (from + to)) : 0.5f;
+        squeezes.share[row] = std::clamp(share, kLeastAway, 1 - kLeastAway);
+    }
     squeezes.point_by.set(row, to_body(pose_of(bodies, by), centre));
     squeezes.point_against.set(row, to_body(pose_of(bodies, against), centre));
-    rigid.hold(body);
-    ++bodies.hold_count[body];
-    bodies.is_asleep[body] = 0;
-    put(body, {}, {});
+    if (before == kNone) {
+        rigid.hold(body);
+        ++bodies.hold_count[body];
+        bodies.is_asleep[body] = 0;
+    }
+    put(body, width ? Vec3{} : velocity_at(bodies, by, centre), {});
 }
 
 bool Holding::go_on(uint32_t row) {
@@ -97,12 +141,13 @@ bool Holding::go_on(uint32_t row) {
         return moves ? to_world(pose_of(bodies, who), point) - centre : Vec3{};
     };
     const Vec3 way_by = moved(by, squeezes.point_by[row]), way_against = moved(against, squeezes.point_against[row]);
-    const double width = width_along(rows, body, push);
-    squeezes.room[row] += dot(push, way_against - way_by);
-    const float far = 2 * bodies.radius[body];
-    const double slack = kSqueezed * size_of(bodies, body);  // so deep it may have been when it began
-    if (double{squeezes.room[row]} >= width + slack || length(way_by) > far || length(way_against) > far) return false;
-    const float share = squeezes.share[row];
+    const float share = squeezes.share[row], far = 2 * bodies.radius[body];
+    if (length(way_by) > far || length(way_against) > far) return false;
+    if (share > 0) {
+        squeezes.room[row] += dot(push, way_against - way_by);
+        const double slack = kSqueezed * size_of(bodies, body);  // so deep it may have been when it began
+        if (double{squeezes.room[row]} >= width_along(rows, body, push) + slack) return false;
+    }
     const Vec3 way = (1 - share) * way_by + share * way_against;
     put(body, (1 / step.dt) * way, way);
     const Vec3 now = centre_of(bodies, body);
@@ -130,15 +175,19 @@ void Holding::let_go(uint32_t row) {
 // It cannot give way, or not any more. What comes apart does so before; what yields in its shape has a dent to come.
 bool is_at_its_end(const WorldRows& rows, const DamageLedger& ledger, Row<Bodies> body, const Between& between,
                    double width, double dt) {
-    const Bodies& bodies = rows.bodies;
-    const double size = size_of(bodies, body);
-    const Row<Structures> structure = bodies.structure[body];
-    const bool gives_way = structure.exists() && bodies.is_breakable[body] &&
-                           calls_of(rows.structures, structure).bears_loads &&
-                           may_be_crushed(rows.structures, structure, ledger.settings);
-    if (!gives_way) return between.sunk_in(dt) > kSqueezed * size;
+    const double size = size_of(rows.bodies, body);
+    if (!may_come_apart(rows, ledger.settings, body)) return between.sunk_in(dt) > kSqueezed * size;
     const std::optional<double> flat = ledger.models.least_width(rows, body);
     return flat && between.sunk > kSqueezed * size && width - between.sunk < std::max(*flat, kFlatShare * size);
+}
+
+// The two that squeeze it still touch it.
+bool is_still_between(const Squeezes& squeezes, uint32_t row, std::span<const BodyLoad> loads) {
+    const auto is_in_it = [&](Row<Bodies> who) {
+        return std::any_of(loads.begin(), loads.end(),
+                           [&](const BodyLoad& l) { return l.toucher == who && l.depth > 0; });
+    };
+    return is_in_it(squeezes.by[row]) && is_in_it(squeezes.against[row]);
 }
 
 SqueezedEvent event_of(const Bodies& bodies, Row<Bodies> body, Row<Bodies> by) {
@@ -152,23 +201,40 @@ void hold_squeezed(Serial, Step step, RigidWorld& rigid, WorldRows& rows, Damage
                    Events<SqueezedEvent>& told) {
     if (!rigid.knows_surfaces()) return;
     Bodies& bodies = rows.bodies;
+    Squeezes& squeezes = rows.squeezes;
     Holding holding{step, rigid, rows, ledger.counts};
-    for (uint32_t row = 0; row < rows.squeezes.size();) {
+    for (uint32_t row = 0; row < squeezes.size();) {
         if (holding.go_on(row))
             ++row;
         else
             holding.let_go(row);
     }
-    if (!is_anything_driven(bodies)) return;
-    const LoadLists lists(bodies, rows.squeezes, rigid.loads(), step, arena);
+    if (squeezes.size() == 0 && !is_anything_driven(bodies)) return;
+    const LoadLists lists(bodies, squeezes, rigid.loads(), step, arena);
     const auto found = arena.take<BodyLoad>(lists.longest()), room = arena.take<BodyLoad>(lists.longest());
+    const double dt = double{step.dt};
     for (uint32_t b = 0; b < bodies.size(); ++b) {
         const Row<Bodies> body(b);
-        if (!is_dynamic(bodies, body) || bodies.hold_count[b] || !lists.has_loads(body)) continue;
-        const auto loads = found.first(lists.take(body, found));
-        const Between between = between_two(bodies, body, loads, double{step.dt}, room);
-        if (!between.exists() || !between.is_driven || !between.against) continue;
-        if (!(between.sunk_in(double{step.dt}) > kSqueezed * size_of(bodies, body))) continue;
+        if (!is_dynamic(bodies, body)) continue;
+        const uint32_t row = row_of(squeezes, body);
+        if (bodies.hold_count[b] && !goes_along(squeezes, row)) continue;
+        const auto loads = found.first(lists.has_loads(body) ? lists.take(body, found) : 0);
+        const auto is_squeezed = [&](const Between& between) {
+            return between.exists() && between.is_driven && between.against &&
+                   between.sunk_in(dt) > kSqueezed * size_of(bodies, body);
+        };
+        // Those between whom it has no room, whatever else gives way.
+        const auto yielding = std::partition(loads.begin(), loads.end(), [&](const BodyLoad& l) {
+            return l.driven_speed > 0 || stays(rows, ledger.settings, l.toucher);
+        });
+        Between between = between_two(bodies, body, {loads.begin(), yielding}, dt, room);
+        const bool is_final = is_squeezed(between);
+        if (!is_final && row != kNone) {
+            if (!is_still_between(squeezes, row, loads)) holding.let_go(row);
+            continue;
+        }
+        if (!is_final) between = between_two(bodies, body, loads, dt, room);
+        if (!is_squeezed(between)) continue;
         if (const Row<SoftBodies> soft = bodies.soft[body]; soft.exists()) {
             rows.soft_bodies.is_called[soft] = 1;
             continue;
@@ -176,9 +242,9 @@ void hold_squeezed(Serial, Step step, RigidWorld& rigid, WorldRows& rows, Damage
         const Vec3 push =
             rotate(bodies.orientation[body], normalised(between.by->push - between.against->push).to_float());
         const double width = width_along(rows, body, push);
-        if (width < 0 || !is_at_its_end(rows, ledger, body, between, width, double{step.dt})) continue;
-        holding.begin(body, between, width);
-        told.push(event_of(bodies, body, between.by->toucher));
+        if (width < 0 || !is_at_its_end(rows, ledger, body, between, width, dt)) continue;
+        holding.begin(body, between, is_final ? std::optional(width) : std::nullopt);
+        if (is_final) told.push(event_of(bodies, body, between.by->toucher));
     }
 }
 

@@ -43,7 +43,7 @@ LoadLists::LoadLists(Bodies& bodies, const Squeezes& squeezes, std::span<const R
       next_(arena.take<uint32_t>(2 * contacts.size())) {
     for (uint32_t b = 0; b < bodies.size(); ++b) bodies.first_load[b] = kNone;
     for (size_t c = next_.size() / 2; c-- > 0;) {
-        if (!touches(contacts[c])) continue;
+        if (!touches(contacts[c]) || !counts(contacts[c])) continue;
         for (uint32_t side = 2; side-- > 0;) {
             const Row<Bodies> body(side == 0 ? contacts[c].a : contacts[c].b);
             const uint32_t entry = 2 * static_cast<uint32_t>(c) + side;
@@ -56,6 +56,16 @@ LoadLists::LoadLists(Bodies& bodies, const Squeezes& squeezes, std::span<const R
         for (uint32_t entry = bodies.first_load[b]; entry != kNone; entry = next_[entry]) ++count;
         longest_ = std::max(longest_, count);
     }
+}
+
+// Of what stands in the grip of a run nobody tells what it stands on, or lies in.
+bool LoadLists::counts(const RigidContact& c) const {
+    const auto is_in_a_grip = [&](uint32_t b) {
+        return static_cast<BodyKind>(bodies_.kind[b]) == BodyKind::Dynamic && bodies_.hold_count[b] &&
+               !is_squeezed(squeezes_, Row<Bodies>(b));
+    };
+    const auto is_free = [&](uint32_t b) { return yields(bodies_, Row<Bodies>(b)) && !bodies_.is_asleep[b]; };
+    return is_free(c.a) || is_free(c.b) || (!is_in_a_grip(c.a) && !is_in_a_grip(c.b));
 }
 
 bool LoadLists::is_driven(Row<Bodies> b) const {
@@ -115,6 +125,7 @@ BodyLoad LoadLists::load_of(uint32_t entry) const {
     l.force = c.impulse / step_.dt;
     l.depth = -c.distance;
     l.stands = !yields(bodies_, other);
+    l.is_squeezed = l.stands && other.exists() && is_squeezed(squeezes_, other);
     Behind behind;
     behind.place = as.point;
     behind.push = as.normal;

@@ -27,6 +27,7 @@ class LoadLists {
     uint32_t take(Row<Bodies> body, std::span<BodyLoad> loads) const;
 
  private:
+    bool counts(const RigidContact& c) const;
     BodyLoad load_of(uint32_t entry) const;
     /// It moves whatever pushes it: the game moves it, or those who squeeze it do.
     bool is_driven(Row<Bodies> b) const;

@@ -188,9 +188,9 @@ double sunk_into(const LoadedBody& of, std::span<const BodyLoad> loads) {
     };
     // Who is held in the grip of a run stands for some frames, no more.
     const auto stays = [&](const BodyLoad& l) {
-        return !is_kind(l, BodyKind::Dynamic) || bodies.mass[l.toucher] > heavy;
+        return !is_kind(l, BodyKind::Dynamic) || l.is_squeezed || bodies.mass[l.toucher] > heavy;
     };
-    const auto presses = [&](const BodyLoad& l) { return is_kind(l, BodyKind::Kinematic); };
+    const auto presses = [&](const BodyLoad& l) { return is_kind(l, BodyKind::Kinematic) || l.is_squeezed; };
     // A shard that fell between two stumps lies in both, and nothing closes on it.
     const auto counts = [&](const BodyLoad& l) { return of.yields_to_weights ? stays(l) : presses(l); };
     double deepest = 0, sunk = 0;

@@ -19,6 +19,7 @@ struct BodyLoad {
     double spread = 1;        // share of the force that one place has to bear
     bool stands = false;      // it yields to no force: static, kinematic or held
     bool is_backed = false;   // it stands, or what stands is behind it, seen from the body
+    bool is_squeezed = false;  // it is held between others, and moves as they do
     bool is_laid = false;     // it goes straight through the body into what is backed there
     Row<Bodies> toucher;
     uint32_t contact = 0;  // of RigidWorld::loads()

@@ -236,11 +236,11 @@ struct Thing {
     double height, width;  // m
     std::string told;
 };
-Thing random_thing(Draw& draw, double low = 0) {
+Thing random_thing(Draw& draw, double low = 0, bool is_solid = false) {
     const char* const stone = draw.of(kStones).name;
     const double size = std::exp2(draw.within(-3.3, 0)), wall = draw.within(0.012, 0.03) * size;
     const double edge = draw.within(0.035, 0.1) * size;
-    const auto kind = static_cast<uint32_t>(draw.engine() % 3);
+    const auto kind = static_cast<uint32_t>(is_solid ? 1 + draw.engine() % 2 : draw.engine() % 3);
     const std::string mesh = kind == 0 ? format("game.mesh.vase{height = %g, edge = %g}", size, edge)
                              : kind == 1
                                  ? format("game.mesh.slab{width = %g, height = %g, thickness = %g, vertices = 500}",
@@ -248,9 +248,11 @@ Thing random_thing(Draw& draw, double low = 0) {
                                  : format("game.mesh.ball{radius = %g, subdivisions = 3}", 0.5 * size);
     const double above = kind == 2 ? 0.5 * size : 0;
     const double width = kind == 0 ? 0.66 * size : kind == 1 ? 0.8 * size : size;
-    return {format("game.spawn{mesh = %s, material = '%s', thickness = %g, edge = %g, at = {0, %g, 0}} ", mesh.c_str(),
-                   stone, wall, edge, low + above + 1e-3 * size),
-            size, width, format("%s %u of %.3f m, wall %.4f, edge %.4f", stone, kind, size, wall, edge)};
+    return {format("game.spawn{mesh = %s, material = '%s', thickness = %g, edge = %g, at = {0, %g, 0}%s} ",
+                   mesh.c_str(), stone, wall, edge, low + above + 1e-3 * size,
+                   is_solid ? ", model = 'lattice', lattice = {wanted_cells = 300}" : ""),
+            size, width,
+            format("%s%s %u of %.3f m, wall %.4f, edge %.4f", is_solid ? "solid " : "", stone, kind, size, wall, edge)};
 }
 std::string press(Vec3 half, Vec3 at, Vec3 velocity) {
     const auto d = [](float v) { return static_cast<double>(v); };
@@ -306,6 +308,31 @@ Closing between_case(Draw& draw) {
         "through a block: " + t.told, gap, h, speed};
 }
 
+/// One block or two of anything, as large as it likes to be, and solids too.
+Closing between_any_case(Draw& draw) {
+    constexpr const char* kMaterials[] = {"wood", "steel", "brick", "concrete", "aluminium"};
+    const bool is_solid = draw.engine() % 3 == 0;
+    const Thing t = random_thing(draw, 0, is_solid);
+    const double speed = draw.within(0.03, 0.4) * t.height, h = t.height;
+    std::string script = kScene + t.spawn, told;
+    double top = 1.002 * h, gap = 0.005 * h;
+    const uint32_t count = 1 + draw.engine() % 2;
+    for (uint32_t i = 0; i < count; ++i, gap += 0.003 * h) {
+        const char* const material = draw.of(kMaterials);
+        const double half = draw.within(0.03, 0.2) * h, wide = draw.within(0.25, 0.7) * h;
+        script += format(
+            "game.spawn{mesh = game.mesh.box{half_extents = {%g, %g, %g}}, material = '%s', thickness = %g, edge = 1, "
+            "breakable = false, at = {0, %g, 0}} ",
+            wide, half, wide, material, 0.9 * half, top + 0.003 * h + half);
+        told += format(", %s %.2f x %.2f", material, wide / h, half / h);
+        top += 0.003 * h + 2 * half;
+    }
+    const auto s = static_cast<float>(h);
+    return {script + press({s, 0.2f * s, s}, {0, static_cast<float>(top + 0.005 * h) + 0.2f * s, 0},
+                           {0, -static_cast<float>(speed), 0}),
+            "through blocks: " + t.told + told, gap, h, speed};
+}
+
 struct ClosingKind {
     const char* name;
     Closing (*of)(Draw&);
@@ -334,7 +361,8 @@ TEST_P(SlowClosing, BreaksBeforeAnythingIsDeepInIt) {
 }
 INSTANTIATE_TEST_SUITE_P(All, SlowClosing,
                          testing::Values(ClosingKind{"Press", press_case}, ClosingKind{"Lift", lift_case},
-                                         ClosingKind{"Door", door_case}, ClosingKind{"ThroughABlock", between_case}),
+                                         ClosingKind{"Door", door_case}, ClosingKind{"ThroughABlock", between_case},
+                                         ClosingKind{"AnyBlocks", between_any_case}),
                          [](const auto& of) { return std::string(of.param.name); });
 
 }  // namespace

@@ -25,12 +25,32 @@ uint32_t cases() {
     return test::cases_of(std::getenv("CULLET_CRUSHING_CASES"), kCases);
 }
 
+/// Between press and thing, or not there. Nothing breaks it.
+struct Block {
+    Vec3 half;
+    const char* material = "";
+    bool exists() const { return half.y > 0; }
+};
 /// A press that comes down to a gap above the floor, on a vase, a ball or a box; a solid one is no vase.
 struct Press {
     std::string script, told;
     double seconds = 0, rate = 60;
+    Block block;
 };
-Press random_press(Draw& draw, bool is_solid = false) {
+Block random_block(Draw& draw, double size) {
+    constexpr const char* kMaterials[] = {"wood", "steel", "concrete", "aluminium"};
+    const auto wide = static_cast<float>(draw.within(0.4, 1.5) * size),
+               high = static_cast<float>(draw.within(0.04, 0.2) * size);
+    return {{wide, high, wide}, kMaterials[draw.engine() % 4]};
+}
+std::string spawn(const Block& block, double low) {
+    const double wide = double{block.half.x}, high = double{block.half.y};
+    return format(
+        "game.spawn{mesh = game.mesh.box{half_extents = {%g, %g, %g}}, material = '%s', thickness = %g, edge = 1, "
+        "breakable = false, at = {0, %g, 0}} ",
+        wide, high, wide, block.material, 0.9 * high, low + high);
+}
+Press random_press(Draw& draw, bool is_solid = false, bool has_block = false) {
     constexpr double kRates[] = {20, 30, 60, 120};
     constexpr const char* kNames[] = {"vase", "ball", "box"};
     constexpr const char* kStones[] = {"brick", "concrete", "glass", "porcelain"};
@@ -45,6 +65,8 @@ Press random_press(Draw& draw, bool is_solid = false) {
     Press p;
     p.rate = kRates[draw.engine() % 4];
     p.seconds = (size - gap) / speed + 1;
+    if (has_block) p.block = random_block(draw, size);
+    const double between = 2 * double{p.block.half.y};
     p.script = format(
         "game.scene{shows = 'a press', seconds = 90} game.floor() "
         "game.spawn{mesh = %s, material = '%s', thickness = %g, edge = %g, at = {0, %g, 0}%s} "
@@ -52,19 +74,33 @@ Press random_press(Draw& draw, bool is_solid = false) {
         "every({frames = 1}, function() if press:position().y <= %.9g then press:set_velocity{0, 0, 0} return false "
         "end end)",
         mesh.c_str(), material, wall, edge, kind == 1 ? size / 2 + 0.001 : 0.001,
-        is_solid ? ", model = 'lattice', lattice = {wanted_cells = 500}" : "", 2 * size, 2 * size, size + 0.102, -speed,
-        gap + 0.1 + 0.5 * speed / p.rate);
+        is_solid ? ", model = 'lattice', lattice = {wanted_cells = 500}" : "", 2 * size, 2 * size,
+        size + between + 0.102, -speed, gap + between + 0.1 + 0.5 * speed / p.rate);
+    if (p.block.exists()) p.script += " " + spawn(p.block, size + 0.0015);
     p.told = format("%s%s %s of %.3f m, wall %.1f mm, %.3f m/s, %g steps a second, gap %.1f mm",
                     is_solid ? "solid " : "", material, kNames[kind], size, 1000 * wall, speed, p.rate, 1000 * gap);
+    if (p.block.exists())
+        p.told += format(", block of %s %.0f x %.0f mm", p.block.material, 2000 * double{p.block.half.x},
+                         2000 * double{p.block.half.y});
     return p;
 }
 
-/// m: of the drawn points of a piece, in a box that the game moves or below the floor.
+/// Of the point, in a box about the body's frame, m.
+double depth_in(Vec3 half, const Pose& pose, Vec3 point) {
+    const Vec3 at = to_body(pose, point);
+    return double{std::min({half.x - std::fabs(at.x), half.y - std::fabs(at.y), half.z - std::fabs(at.z)})};
+}
+
+bool is_block(const Bodies& bodies, uint32_t body) {
+    return static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Dynamic && !bodies.is_breakable[body];
+}
+
+/// m: of the drawn points of a piece, in a box that the game moves, in the block or below the floor.
 struct Depth {
     double deepest = 0;  // less what is allowed: a centimetre, or half of the piece where that is less
     double of = 0, size = 0;
 };
-Depth deepest_piece(const GameWorld& game) {
+Depth deepest_piece(const GameWorld& game, const Block& block) {
     const World& world = game.world();
     const WorldData& data = world.contents().data;
     const Bodies& bodies = data.state.bodies;
@@ -78,10 +114,9 @@ Depth deepest_piece(const GameWorld& game) {
             const Vec3 point = to_world(pose_of(bodies, b), view->vertices[view->indices[i]].position);
             deep = std::max(deep, -double{point.y});
             for (uint32_t k = 0; k < bodies.size(); ++k) {
-                if (static_cast<BodyKind>(bodies.kind[k]) != BodyKind::Kinematic) continue;
-                const Vec3 half = data.query_index->half_extents(k), at = to_body(pose_of(bodies, k), point);
-                deep = std::max<double>(
-                    deep, std::min({half.x - std::fabs(at.x), half.y - std::fabs(at.y), half.z - std::fabs(at.z)}));
+                if (static_cast<BodyKind>(bodies.kind[k]) == BodyKind::Kinematic)
+                    deep = std::max(deep, depth_in(data.query_index->half_extents(k), pose_of(bodies, k), point));
+                if (is_block(bodies, k)) deep = std::max(deep, depth_in(block.half, pose_of(bodies, k), point));
             }
         }
         const double size = 2 * double{bodies.radius[b]}, over = deep - std::min(0.01, size / 2);
@@ -94,11 +129,28 @@ void play_frame(GameWorld& game) {
     game.before_step(), game.step(), game.after_step();
 }
 
-void expect_nothing_deep(bool is_solid) {
+/// m, that the block and the press lie in each other.
+double press_in_block(const GameWorld& game, const Block& block) {
+    const Bodies& bodies = game.world().contents().data.state.bodies;
+    double low = 1e30, high = -1e30;
+    for (uint32_t b = 0; b < bodies.size(); ++b) {
+        const Pose pose = pose_of(bodies, b);
+        if (static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Kinematic) low = double{pose.position.y} - 0.1;
+        if (!is_block(bodies, b)) continue;
+        for (int k = 0; k < 8; ++k) {
+            const Vec3 corner{k & 1 ? block.half.x : -block.half.x, k & 2 ? block.half.y : -block.half.y,
+                              k & 4 ? block.half.z : -block.half.z};
+            high = std::max(high, double{to_world(pose, corner).y});
+        }
+    }
+    return std::max(0.0, high - low);
+}
+
+void expect_nothing_deep(bool is_solid, bool has_block = false) {
     uint32_t wrong = 0;
     for (uint32_t seed = 1; seed <= cases(); ++seed) {
         Draw draw{std::mt19937(seed)};
-        const Press press = random_press(draw, is_solid);
+        const Press press = random_press(draw, is_solid, has_block);
         RunOptions options;
         options.threads = 2;
         options.dt_ms = 1000 / press.rate;
@@ -106,15 +158,16 @@ void expect_nothing_deep(bool is_solid) {
         ASSERT_TRUE(game.ok()) << game.error();
         for (double t = 0; t < press.seconds; t += 1 / press.rate) play_frame(*game);
         EXPECT_EQ(game->failure(), "");
-        const Depth depth = deepest_piece(*game);
+        const Depth depth = deepest_piece(*game, press.block);
+        const double in_block = press.block.exists() ? press_in_block(*game, press.block) : 0;
         const uint32_t through = static_cast<uint32_t>(measure_rest(*game, 0).through);
         const Matter matter = measure_matter(game->world());
         // Skins of a solid leave a little out each time that it is cut.
         EXPECT_NEAR(matter.mass, game->mass_put_in(), (is_solid ? 1e-3 : 1e-9) * matter.mass);
-        std::printf("seed %u: %s: %u pieces, %llu crumbs, worst %.1f mm of %.1f, %u through\n", seed,
-                    press.told.c_str(), game->world().fragments(nullptr, 0),
+        std::printf("seed %u: %s: %u pieces, %llu crumbs, worst %.1f mm of %.1f, %u through, %.1f mm in the block\n",
+                    seed, press.told.c_str(), game->world().fragments(nullptr, 0),
                     static_cast<unsigned long long>(game->sums().events["debris"]), 1000 * depth.of, 1000 * depth.size,
-                    through);
+                    through, 1000 * in_block);
         if (depth.deepest <= 0 && through == 0) continue;
         ++wrong;
         std::printf("%s\n", press.script.c_str());
@@ -127,6 +180,13 @@ TEST(Grinding, NothingThatAPressComesDownOnStandsDeepInItOrInTheFloor) {
 }
 TEST(Grinding, NorDoesAnythingOfASolid) {
     expect_nothing_deep(true);
+}
+// What squeezes them is as a part of the press.
+TEST(Grinding, NorInABlockThatLiesBetweenPressAndThing) {
+    expect_nothing_deep(false, true);
+}
+TEST(Grinding, NorDoesAnythingOfASolidBelowABlock) {
+    expect_nothing_deep(true, true);
 }
 
 // A box of 12 cm, pressed to 1 cm in a third of a second.
