@@ -791,6 +791,7 @@ void BulletWorld::gather_contacts() {
     }
 }
 
+// What is held is not solved, but lies in what it lies in.
 void BulletWorld::gather_loads(float dt) {
     loads_.clear();
     for (const SortedManifold& m : manifolds_) {

@@ -191,8 +191,13 @@ double sunk_into(const LoadedBody& of, std::span<const BodyLoad> loads) {
         return !is_kind(l, BodyKind::Dynamic) || l.is_squeezed || bodies.mass[l.toucher] > heavy;
     };
     const auto presses = [&](const BodyLoad& l) { return is_kind(l, BodyKind::Kinematic) || l.is_squeezed; };
-    // A shard that fell between two stumps lies in both, and nothing closes on it.
-    const auto counts = [&](const BodyLoad& l) { return of.yields_to_weights ? stays(l) : presses(l); };
+    // What fell between two stumps, or came loose there, lies in both, and nothing closes on it.
+    const bool is_in_play = std::any_of(loads.begin(), loads.end(), [&](const BodyLoad& l) {
+        return presses(l) || l.driven_speed > 0 || (is_kind(l, BodyKind::Dynamic) && stays(l));
+    });
+    const auto counts = [&](const BodyLoad& l) {
+        return is_in_play && (of.yields_to_weights ? stays(l) : presses(l));
+    };
     double deepest = 0, sunk = 0;
     for (const BodyLoad& l : loads) {
         deepest = std::max(deepest, l.depth);
