@@ -62,7 +62,7 @@ bool stays(const WorldRows& rows, const DamageSettings& settings, Row<Bodies> wh
         const uint32_t row = row_of(rows.squeezes, who);
         return row != kNone && !goes_along(rows.squeezes, row);
     }
-    return kind != BodyKind::Static || !may_come_apart(rows, settings, who) ||
+    return kind == BodyKind::Kinematic || !may_come_apart(rows, settings, who) ||
            !may_be_halved(rows.structures, bodies.structure[who], settings);
 }
 
@@ -218,7 +218,12 @@ void hold_squeezed(Serial, Step step, RigidWorld& rigid, WorldRows& rows, Damage
         if (!is_dynamic(bodies, body)) continue;
         const uint32_t row = row_of(squeezes, body);
         if (bodies.hold_count[b] && !goes_along(squeezes, row)) continue;
-        const auto loads = found.first(lists.has_loads(body) ? lists.take(body, found) : 0);
+        auto loads = found.first(lists.has_loads(body) ? lists.take(body, found) : 0);
+        // What was ground in this step is gone.
+        const auto gone = std::remove_if(loads.begin(), loads.end(), [&](const BodyLoad& l) {
+            return static_cast<BodyKind>(bodies.kind[l.toucher]) == BodyKind::Free;
+        });
+        loads = {loads.begin(), gone};
         const auto is_squeezed = [&](const Between& between) {
             return between.exists() && between.is_driven && between.against &&
                    between.sunk_in(dt) > kSqueezed * size_of(bodies, body);

@@ -124,6 +124,7 @@ BodyLoad LoadLists::load_of(uint32_t entry) const {
     l.push = in_body_axes(as.normal);
     l.force = c.impulse / step_.dt;
     l.depth = -c.distance;
+    l.closing = std::max(0.0f, c.approach_speed);
     l.stands = !yields(bodies_, other);
     l.is_squeezed = l.stands && other.exists() && is_squeezed(squeezes_, other);
     Behind behind;

@@ -225,6 +225,7 @@ Overload overload_of(const LoadedBody& of, const RigidWorld& rigid, std::span<Bo
     at_rest.is_driven = closing.driver != nullptr;
     at_rest.is_between = closing.is_between;
     at_rest.driven_speed = at_rest.is_driven ? at.driven_speed : 0;
+    at_rest.falling_speed = at_rest.is_driven ? 0 : at.closing;
     at_rest.sunk = sunk_into(of, loads);
     at_rest.contact = at.contact;
     at_rest.section = of.bodies.centre[of.body] + 0.5 * at.place;

@@ -9,18 +9,19 @@ namespace cullet {
 
 /// One contact of a body as a load.
 struct BodyLoad {
-    Vec3d place;              // from the centre of mass, body axes, m
-    Vec3d push;               // unit, body axes: the way the body is pushed
-    double force = 0;         // N, that the last solve passed, and what it would have taken to stop who pushes
-    double bears = 0;         // N, that the one who touches can set against a push towards it
-    Vec3d velocity, spin;     // m/s at the centre of mass and rad/s, body axes: of who stands, or stands behind
-    double driven_speed = 0;  // m/s, of that motion along `push` at `place`
-    double depth = 0;         // m, that who touches lies in the body
-    double spread = 1;        // share of the force that one place has to bear
-    bool stands = false;      // it yields to no force: static, kinematic or held
-    bool is_backed = false;   // it stands, or what stands is behind it, seen from the body
+    Vec3d place;               // from the centre of mass, body axes, m
+    Vec3d push;                // unit, body axes: the way the body is pushed
+    double force = 0;          // N, that the last solve passed, and what it would have taken to stop who pushes
+    double bears = 0;          // N, that the one who touches can set against a push towards it
+    Vec3d velocity, spin;      // m/s at the centre of mass and rad/s, body axes: of who stands, or stands behind
+    double driven_speed = 0;   // m/s, of that motion along `push` at `place`
+    double depth = 0;          // m, that who touches lies in the body
+    double closing = 0;        // m/s, at which it goes on into the body: what the solver could not hold
+    double spread = 1;         // share of the force that one place has to bear
+    bool stands = false;       // it yields to no force: static, kinematic or held
+    bool is_backed = false;    // it stands, or what stands is behind it, seen from the body
     bool is_squeezed = false;  // it is held between others, and moves as they do
-    bool is_laid = false;     // it goes straight through the body into what is backed there
+    bool is_laid = false;      // it goes straight through the body into what is backed there
     Row<Bodies> toucher;
     uint32_t contact = 0;  // of RigidWorld::loads()
 };
@@ -43,13 +44,14 @@ struct OverloadRoom {
 };
 
 struct Overload {
-    double share = 0;         // of what the body bears; more than 1 breaks it
-    double load = 0;          // N, that squeeze it
-    uint32_t contact = 0;     // of RigidWorld::loads(), where it is worst
-    bool is_driven = false;   // two that do not yield close on it: no force is enough for long
-    bool is_between = false;  // driven, and all that close on it touch it themselves
-    double driven_speed = 0;  // m/s, of the fastest that closes on it
-    double sunk = 0;          // m, that two who do not make way for it lie in it together, from opposite sides
+    double share = 0;          // of what the body bears; more than 1 breaks it
+    double load = 0;           // N, that squeeze it
+    uint32_t contact = 0;      // of RigidWorld::loads(), where it is worst
+    bool is_driven = false;    // two that do not yield close on it: no force is enough for long
+    bool is_between = false;   // driven, and all that close on it touch it themselves
+    double driven_speed = 0;   // m/s, of the fastest that closes on it
+    double falling_speed = 0;  // m/s, at which what is not driven goes on into it where it is worst
+    double sunk = 0;           // m, that two who do not make way for it lie in it together, from opposite sides
     // Where it would come apart, body frame and axes: across the bar where the moment is largest, or along the push
     // that squeezes it.
     Vec3d section, section_normal;

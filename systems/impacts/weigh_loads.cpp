@@ -165,7 +165,8 @@ bool is_crushed(const Overload& over) {
 // m, that what drives, or falls, is in it in so many seconds.
 double way_in(const Overload& over, Vec3 gravity, double seconds) {
     if (over.is_driven) return over.sunk + over.driven_speed * seconds;
-    return over.sunk + (is_crushed(over) ? 0.5 * length(gravity) * seconds * seconds : 0);
+    if (!is_crushed(over)) return over.sunk;
+    return over.sunk + over.falling_speed * seconds + 0.5 * length(gravity) * seconds * seconds;
 }
 
 bool is_for_a_run(const WorldRows& state, const LoadedBody& of, const Overload& over, DamageRules rules, Step step) {

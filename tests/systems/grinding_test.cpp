@@ -40,7 +40,7 @@ struct Press {
 Block random_block(Draw& draw, double size) {
     constexpr const char* kMaterials[] = {"wood", "steel", "concrete", "aluminium"};
     const auto wide = static_cast<float>(draw.within(0.4, 1.5) * size),
-               high = static_cast<float>(draw.within(0.04, 0.2) * size);
+               high = static_cast<float>(std::max(0.02, draw.within(0.04, 0.2) * size));
     return {{wide, high, wide}, kMaterials[draw.engine() % 4]};
 }
 std::string spawn(const Block& block, double low) {
@@ -65,7 +65,10 @@ Press random_press(Draw& draw, bool is_solid = false, bool has_block = false) {
     Press p;
     p.rate = kRates[draw.engine() % 4];
     p.seconds = (size - gap) / speed + 1;
-    if (has_block) p.block = random_block(draw, size);
+    if (has_block) {
+        p.block = random_block(draw, size);
+        p.seconds = (size - gap) / speed + 0.1;  // by its own weight it sinks into shards, as before
+    }
     const double between = 2 * double{p.block.half.y};
     p.script = format(
         "game.scene{shows = 'a press', seconds = 90} game.floor() "
