@@ -130,18 +130,19 @@ bool Holding::go_on(uint32_t row) {
     Squeezes& squeezes = rows.squeezes;
     Bodies& bodies = rows.bodies;
     const Row<Bodies> body = squeezes.body[row], by = squeezes.by[row], against = squeezes.against[row];
-    if (!is_there(bodies, by, squeezes.generation_by[row]) ||
-        !is_there(bodies, against, squeezes.generation_against[row]) ||
-        !is_there(bodies, body, squeezes.generation[row]) || !is_dynamic(bodies, body))
+    const float share = squeezes.share[row], far = 2 * bodies.radius[body];
+    if (!is_there(bodies, by, squeezes.generation_by[row]) || !is_there(bodies, body, squeezes.generation[row]) ||
+        !is_dynamic(bodies, body))
         return false;
+    if (share > 0 && !is_there(bodies, against, squeezes.generation_against[row])) return false;
     rigid.hold(body);  // a hit that held it may have ended
     const Vec3 centre = centre_of(bodies, body), push = squeezes.push[row];
     const auto moved = [&](Row<Bodies> who, Vec3 point) {
         const bool moves = static_cast<BodyKind>(bodies.kind[who]) != BodyKind::Static;
         return moves ? to_world(pose_of(bodies, who), point) - centre : Vec3{};
     };
-    const Vec3 way_by = moved(by, squeezes.point_by[row]), way_against = moved(against, squeezes.point_against[row]);
-    const float share = squeezes.share[row], far = 2 * bodies.radius[body];
+    const Vec3 way_by = moved(by, squeezes.point_by[row]),
+               way_against = share > 0 ? moved(against, squeezes.point_against[row]) : Vec3{};
     if (length(way_by) > far || length(way_against) > far) return false;
     if (share > 0) {
         squeezes.room[row] += dot(push, way_against - way_by);
@@ -152,7 +153,7 @@ bool Holding::go_on(uint32_t row) {
     put(body, (1 / step.dt) * way, way);
     const Vec3 now = centre_of(bodies, body);
     squeezes.point_by.set(row, to_body(pose_of(bodies, by), now));
-    squeezes.point_against.set(row, to_body(pose_of(bodies, against), now));
+    if (share > 0) squeezes.point_against.set(row, to_body(pose_of(bodies, against), now));
     return true;
 }
 
@@ -181,13 +182,19 @@ bool is_at_its_end(const WorldRows& rows, const DamageLedger& ledger, Row<Bodies
     return flat && between.sunk > kSqueezed * size && width - between.sunk < std::max(*flat, kFlatShare * size);
 }
 
-// The two that squeeze it still touch it.
-bool is_still_between(const Squeezes& squeezes, uint32_t row, std::span<const BodyLoad> loads) {
-    const auto is_in_it = [&](Row<Bodies> who) {
-        return std::any_of(loads.begin(), loads.end(),
-                           [&](const BodyLoad& l) { return l.toucher == who && l.depth > 0; });
-    };
-    return is_in_it(squeezes.by[row]) && is_in_it(squeezes.against[row]);
+// Who pushes it lies in it, and so does somebody on the other side, whoever that is now.
+bool is_still_between(const WorldRows& rows, uint32_t row, std::span<const BodyLoad> loads) {
+    const Squeezes& squeezes = rows.squeezes;
+    const Vec3d push(rotate(conjugate(rows.bodies.orientation[squeezes.body[row]]), squeezes.push[row]));
+    bool is_by = false, is_against = false;
+    for (const BodyLoad& l : loads) {
+        if (!(l.depth > 0)) continue;
+        if (l.toucher == squeezes.by[row])
+            is_by = true;
+        else
+            is_against = is_against || ((l.stands || l.is_backed) && are_opposite(push, l.push));
+    }
+    return is_by && is_against;
 }
 
 SqueezedEvent event_of(const Bodies& bodies, Row<Bodies> body, Row<Bodies> by) {
@@ -235,7 +242,7 @@ void hold_squeezed(Serial, Step step, RigidWorld& rigid, WorldRows& rows, Damage
         Between between = between_two(bodies, body, {loads.begin(), yielding}, dt, room);
         const bool is_final = is_squeezed(between);
         if (!is_final && row != kNone) {
-            if (!is_still_between(squeezes, row, loads)) holding.let_go(row);
+            if (!is_still_between(rows, row, loads)) holding.let_go(row);
             continue;
         }
         if (!is_final) between = between_two(bodies, body, loads, dt, room);
