@@ -4,8 +4,8 @@
 
 namespace cullet {
 
-/// One row is one body that two who yield to nothing leave too little room, and that cannot give way. There are no rows
-/// while none is.
+/// One row is one body that cannot give way, between one who yields to nothing and what leaves it too little room.
+/// There are no rows while none is.
 struct Squeezes : Table<Squeezes> {
     using Table::Table;
     CULLET_TABLE(squeezes);
@@ -15,9 +15,10 @@ struct Squeezes : Table<Squeezes> {
     Column<uint32_t> generation{*this, "generation"};  // of each, as a row is used again
     Column<uint32_t> generation_by{*this, "generation_by"};
     Column<uint32_t> generation_against{*this, "generation_against"};
-    Column<Vec3> push{*this, "push"};               // unit, world: from `by` to `against`
-    Column<float> room{*this, "room", "m"};         // that they leave along it
-    Column<float> share{*this, "share"};            // of the room, that the centre is away from `by`
+    Column<Vec3> push{*this, "push"};        // unit, world: from `by` to `against`
+    Column<float> room{*this, "room", "m"};  // that they leave along it
+    // Of the room, that the centre is away from `by`. 0: what is against it gives way, and it goes as `by` does.
+    Column<float> share{*this, "share"};
     Column<Vec3> point_by{*this, "point_by", "m"};  // where the body's centre is, in the frames of both
     Column<Vec3> point_against{*this, "point_against", "m"};
 };

@@ -234,8 +234,9 @@ class RigidWorld {
 
     virtual void solve(float dt) = 0;
     /// The contacts of the last solve, until the next detect(): what they bore, and in `approach_speed` how fast they
-    /// close after it, beyond what is still apart: what the solver could not hold. In the order of contacts(). A host
-    /// tells both with the contacts of the next step.
+    /// close after it, beyond what is still apart: what the solver could not hold. In the order of contacts(), and with
+    /// those of what is held and whatever does not move, which bear nothing. A host tells both with the contacts of the
+    /// next step.
     virtual std::span<const RigidContact> loads() const { return contacts(); }
 
     /// Height of the highest static triangle straight below `point`, or `fallback`: where crumbs come to rest in a

@@ -138,7 +138,8 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, WorldRows& rows, QueuedHi
 void grind_crushed(Serial, Step step, const Events<Crushed>& crushed, WorldRows& rows, WaitingHits waiting,
                    Crumbs crumbs, const DamageModels& models, RigidWorld& rigid, ToldOfGrinding told);
 /// What two that yield to nothing leave too little room, and what can give way no further, is held between them, in
-/// both alike, and goes free where it is. What moves by its springs is woken.
+/// both alike, and goes free where it is. As long as the one on the other side can give way it goes as the first does.
+/// What moves by its springs is woken.
 void hold_squeezed(Serial, Step step, RigidWorld& rigid, WorldRows& rows, DamageLedger ledger, Arena& arena,
                    Events<SqueezedEvent>& told);
 /// Debris flies on parabolas, bounces off the ground and off bodies larger than itself, slides and comes to rest. A
