@@ -29,7 +29,7 @@ TEST_P(DeclaredWrites, EverySystemOfTheSceneKeepsToThem) {
     test::WriteWatch watch(game->world());
     // Frames with hits are the ones that write; of the quiet ones each eighth tells enough.
     constexpr uint32_t kFrames = 240;
-    const uint32_t most = test::few_or_all(10u, 40u);
+    const uint32_t most = test::few_or_all(6u, 40u);
     uint32_t watched = 0;
     for (uint32_t frame = 0; frame < kFrames && watched < most; ++frame) {
         game->before_step();

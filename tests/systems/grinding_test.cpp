@@ -20,7 +20,7 @@ namespace {
 using test::Draw;
 using test::format;
 
-const uint32_t kCases = test::few_or_all(6u, 16u);
+const uint32_t kCases = test::few_or_all(4u, 16u);
 uint32_t cases() {
     return test::cases_of(std::getenv("CULLET_CRUSHING_CASES"), kCases);
 }

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <fstream>
 #include <random>
+#include <span>
 
+#include "tests/support/effort.hpp"
 #include "tests/support/play_script.hpp"
 
 namespace cullet {
@@ -102,8 +104,9 @@ Played play_strip(double share, double height, double rate) {
 }
 
 TEST(LaidLoads, AStripBreaksUnderItsOwnWeightWhereABeamDoesAndStandsAtAHalf) {
+    constexpr double kRates[] = {60, 30, 120};  // steps a second
     for (const double height : {0.002, 0.005, 0.012})
-        for (const double rate : {30.0, 60.0, 120.0}) {
+        for (const double rate : std::span(kRates).first(test::few_or_all(1u, 3u))) {
             const Played light = play_strip(0.45, height, rate), heavy = play_strip(1.6, height, rate);
             ASSERT_EQ(light.failure + heavy.failure, "");
             EXPECT_EQ(light.pieces, 0u) << height << " m, " << rate << " steps a second";

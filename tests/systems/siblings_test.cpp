@@ -94,7 +94,7 @@ TEST(Siblings, OfHiddenBreaksAreDrawnAsTheBodyWasAndDoNotThrowEachOther) {
     expect_sound(figures_of(FractureMode::Hidden, 500), 500, {0.85, 8, 2.1});
 }
 
-const uint32_t kQuickBreaks = few_or_all(300u, 500u);
+const uint32_t kQuickBreaks = few_or_all(160u, 500u);
 
 TEST(Siblings, OfQuickBreaksAreDrawnAsTheBodyWasAndDoNotThrowEachOther) {
     expect_sound(figures_of(FractureMode::Quick, kQuickBreaks), kQuickBreaks, {0.35, 5, kMostThrown});

@@ -8,6 +8,7 @@
 
 #include "systems/world_contents.hpp"
 #include "tests/support/draw.hpp"
+#include "tests/support/effort.hpp"
 #include "tests/support/play_script.hpp"
 
 namespace cullet {
@@ -17,8 +18,8 @@ using test::Draw;
 using test::format;
 
 constexpr double kRates[] = {30, 60, 120};
-constexpr uint32_t kCases = 8;  // of each test
-constexpr double kHalf = 0.5;   // of the thing's size: of the press
+const uint32_t kCases = test::few_or_all(5u, 8u);  // of each test
+constexpr double kHalf = 0.5;                      // of the thing's size: of the press
 uint32_t cases() {
     return test::cases_of(std::getenv("CULLET_SQUEEZED_CASES"), kCases);
 }

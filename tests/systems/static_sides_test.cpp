@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "cullet/world.hpp"
+#include "tests/support/effort.hpp"
 
 namespace cullet {
 namespace {
@@ -161,8 +163,11 @@ TEST(StaticSides, ShardsStayAboveASheetAtTwentyToSixtyStepsASecond) {
         float size, rate;
         FractureMode mode;
     };
-    for (const Case c : {Case{1, 20, FractureMode::Hidden}, Case{1, 60, FractureMode::Quick},
-                         Case{0.15f, 20, FractureMode::Quick}, Case{0.15f, 30, FractureMode::Hidden}})
+    constexpr Case kCases[] = {{1, 20, FractureMode::Hidden},
+                               {0.15f, 20, FractureMode::Quick},
+                               {1, 60, FractureMode::Quick},
+                               {0.15f, 30, FractureMode::Hidden}};
+    for (const Case& c : std::span(kCases).first(test::few_or_all(2u, 4u)))
         EXPECT_EQ(gone_through(vase(c.size), c.size, c.rate, c.mode, 1), 0u)
             << c.rate << " steps a second, size " << c.size << ", mode " << static_cast<int>(c.mode);
 }
