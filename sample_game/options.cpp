@@ -12,6 +12,7 @@
 #include "cullet/version.hpp"
 #include "sample_game/model_settings.hpp"
 #include "sample_game/scene.hpp"
+#include "sample_game/truth.hpp"
 
 namespace cullet {
 namespace {
@@ -186,7 +187,8 @@ void add_replay(CLI::App& app, ReplayOptions& replay) {
 void add_reproduce(CLI::App& app, reproduce::CommandOptions& options) {
     CLI::App* command =
         app.add_subcommand("reproduce", "Writes a page of a paper's claims beside ours: tables, numbers, pictures");
-    command->add_option("model", options.model, "thick_shell or metal_shell")->required();
+    command->add_option("model", options.model, "Damage model whose published work it is: " + reproduce::known_models())
+        ->required();
     command->add_option("--out", options.out, "Folder for report.html, report.json and the pictures")->required();
     command->add_option("--data", options.data,
                         "Folder of test meshes; CULLET_TEST_DATA or ../shared/data if not given");
@@ -312,7 +314,7 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     CLI::App* truth = app.add_subcommand("truth",
                                          "Prints the verification cases of a method: figure, bounds, verdict; the "
                                          "last, speeds of first cracks and pieces, takes minutes");
-    truth->add_option("model", options.truth.model, "thick_shell, metal_shell or lattice")->required();
+    truth->add_option("model", options.truth.model, "Damage model: " + truth_models())->required();
     truth
         ->add_option("--placements", options.truth.placements,
                      "Seeded placements of each scene for the medians; the bands are judged on the first 20")

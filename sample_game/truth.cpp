@@ -2,17 +2,39 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "sample_game/report.hpp"
+#include "sample_game/truth_cases.hpp"
 #include "sample_game/truth_hits.hpp"
 
 namespace cullet {
+namespace {
+
+/// What is to be true of a damage model: a line more is a model more.
+struct Truth {
+    const char* model;
+    std::span<const TruthCase> (*cases)();
+    bool has_hidden_run = false;  // whose thresholds are measured as well
+};
+constexpr Truth kTruths[] = {
+    {"thick_shell", truth_cases, true}, {"metal_shell", metal_truth_cases}, {"lattice", lattice_truth_cases}};
+
+}  // namespace
+
+std::string truth_models() {
+    std::string names;
+    for (const Truth& truth : kTruths) names += (names.empty() ? "" : ", ") + std::string(truth.model);
+    return names;
+}
 
 int run_truth(const std::string& model, const TruthSettings& given) {
-    const bool is_thick = model == "thick_shell", is_metal = model == "metal_shell";
-    if (!is_thick && !is_metal && model != "lattice") {
-        fmt::print(stderr, "truth {}: not known; use thick_shell, metal_shell or lattice.\n", model);
+    const auto truth =
+        std::find_if(std::begin(kTruths), std::end(kTruths), [&](const Truth& t) { return model == t.model; });
+    if (truth == std::end(kTruths)) {
+        fmt::print(stderr, "truth {}: not known; there are {}.\n", model, truth_models());
         return 2;
     }
     std::error_code error;
@@ -30,10 +52,9 @@ int run_truth(const std::string& model, const TruthSettings& given) {
         print_verdicts(number, name, verdicts, faults);
         summaries.push_back({number, name, verdicts});
     };
-    for (const TruthCase& one : is_metal ? metal_truth_cases() : is_thick ? truth_cases() : lattice_truth_cases())
-        tell(one.number, one.name, one.measure());
+    for (const TruthCase& one : truth->cases()) tell(one.number, one.name, one.measure());
     nlohmann::json json;
-    if (is_thick) {
+    if (truth->has_hidden_run) {
         fmt::print("case 9 is measured: the hidden run\n");
         Result<HitTruth> hits = tell_hits(settings);
         if (!hits.ok()) {

@@ -13,8 +13,10 @@ struct TruthSettings {
     std::string out;       // a folder for truth.json; empty: only printed
 };
 
-/// Prints a table for `model` ("thick_shell", "metal_shell" or "lattice") and returns the program's exit code: 0 when
-/// all figures are met, 1 when some are not, 2 for a model that is not known or a folder that cannot be written.
+/// Names of the damage models that have cases: "thick_shell, ...".
+std::string truth_models();
+/// Prints a table for one of them and returns the program's exit code: 0 when all figures are met, 1 when some are not,
+/// 2 for a model that is not known or a folder that cannot be written.
 int run_truth(const std::string& model, const TruthSettings& settings);
 
 }  // namespace cullet

@@ -69,10 +69,15 @@ Result<std::vector<Claim>> make_claims(Bench& bench, const Paper& paper, const s
 
 }  // namespace
 
+std::string known_models() {
+    std::string names;
+    for (const Paper& paper : kPapers) names += (names.empty() ? "" : ", ") + std::string(paper.model);
+    return names;
+}
+
 int run(const CommandOptions& options) {
     const Paper* const paper = paper_of(options.model);
-    if (!paper)
-        return refuse(fmt::format("reproduce {}: not known; use thick_shell or metal_shell.", options.model), 2);
+    if (!paper) return refuse(fmt::format("reproduce {}: not known; there are {}.", options.model, known_models()), 2);
     if (!options.only.empty() && !is_known(*paper, options.only))
         return refuse(
             fmt::format("--only {}: there is no such claim; there are {}.", options.only, known_claims(*paper)), 2);
