@@ -76,10 +76,10 @@ void expect_sound(const SiblingFigures& f, uint32_t breaks, const Bounds& today)
     EXPECT_EQ(f.other_surfaces, 0u);
     EXPECT_LT(10 * f.seen_in, f.looked_at);  // by half a millimetre, in any of 30 frames
     EXPECT_LE(quantile(f.lost, 0.5), kLost);
-    EXPECT_GT(f.thrown.size(), 2000u);
+    EXPECT_GT(f.thrown.size(), 6 * breaks);
     EXPECT_LE(quantile(f.thrown, 0.99), kThrown);
     EXPECT_LE(quantile(f.thrown, 1), today.most_thrown);
-    EXPECT_GT(f.by_the_other.size(), 500u);
+    EXPECT_GT(f.by_the_other.size(), 3 * breaks / 2);
     EXPECT_LE(quantile(f.by_the_other, 0.99), kThrown);
     EXPECT_LE(quantile(f.by_the_other, 1), kMostThrown);
     EXPECT_LE(quantile(f.gained, 0.99), today.gained_by_99_per_cent);

@@ -8,6 +8,7 @@
 
 #include "sample_game/meshes.hpp"
 #include "tests/engine/rigid_scenes.hpp"
+#include "tests/support/effort.hpp"
 #include "tests/support/play_script.hpp"
 #include "tests/support/random_floors.hpp"
 #include "tests/support/small_worlds.hpp"
@@ -187,7 +188,7 @@ TEST(InnerEdgesBreak, NoPaneIsTurnedAsideByPrismsThatLieFlush) {
     cooking.thickness = 0.003f;
     const Model pane = cook(view_of_mesh(make_box({0.1f, 0.003f, 0.1f})), cooking).value();
     uint32_t aside = 0, cases = 0;
-    for (int seed = 0; seed < 8; ++seed) {
+    for (int seed = 0; seed < test::few_or_all(4, 8); ++seed) {
         World world = make_world(settings);
         add_part(world, flush_prisms());
         const ModelId model = world.add_model(pane).value();

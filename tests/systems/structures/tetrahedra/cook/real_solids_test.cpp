@@ -6,6 +6,7 @@
 #include <map>
 
 #include "tests/support/data_files.hpp"
+#include "tests/support/effort.hpp"
 #include "tests/support/real_meshes.hpp"
 #include "tests/support/solid_checks.hpp"
 
@@ -52,8 +53,10 @@ TEST(RealSolids, HostileMeshesAreSoundOrRefused) {
     uint32_t sound = 0;
     const fs::path cache = fs::path(testing::TempDir()) / ("cullet_real_solids." + std::to_string(getpid()));
     fs::create_directories(cache);
+    const uint32_t every = test::few_or_all(2u, 1u);
+    uint32_t seen = 0;
     for (const fs::path& file : test::files_below(test::test_data() / "hostile")) {
-        if (test::is_companion(file)) continue;
+        if (test::is_companion(file) || seen++ % every != 0) continue;
         const Result<Mesh> mesh = import_mesh(file, build_folder() + "/cullet_import", cache);
         if (!mesh) continue;
         const Result<CookedSolid> made = cook_solid(*mesh);
@@ -66,7 +69,7 @@ TEST(RealSolids, HostileMeshesAreSoundOrRefused) {
         ++sound;
     }
     fs::remove_all(cache);
-    EXPECT_GE(sound, 10u);
+    EXPECT_GE(sound, 10 / every);
 }
 
 }  // namespace
