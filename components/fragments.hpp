@@ -36,9 +36,9 @@ struct Fragments : Table<Fragments> {
     // What becomes of it.
     Own<Row<Fragments>> order{*this, "order"};  // of all of the body, heaviest first: row i names the i-th of them
     Own<Row<Bodies>> child{*this, "child"};     // a new body, or none
-    Own<uint8_t> is_crumb{*this, "is_crumb"};
-    Own<double> volume{*this, "volume", "m3"};  // of a crumb, once births are filled
-    Own<uint32_t> debris{*this, "debris"};      // row of a crumb once it is made, or kNone
+    Own<uint8_t> is_debris{*this, "is_debris"};
+    Own<double> volume{*this, "volume", "m3"};  // of debris, once births are filled
+    Own<uint32_t> debris{*this, "debris"};      // its row once it is made, or kNone
     // How it moves. Mass, centre and inertia are those that its momenta were summed with: with them these are the
     // hidden state's, and the energy can only fall. What holds a pin stands still.
     Own<double> moving_mass{*this, "moving_mass", "kg"};
@@ -89,7 +89,7 @@ inline Rows<Fragments> append_fragments(Fragments& fragments, uint32_t count) {
 }
 
 inline bool leaves(const Fragments& fragments, uint32_t row) {
-    return fragments.child[row].exists() || fragments.is_crumb[row];
+    return fragments.child[row].exists() || fragments.is_debris[row];
 }
 
 /// Ties to the lower row.

@@ -52,8 +52,8 @@ struct TaskEnded {
     Row<Tasks> task;
     uint32_t owner = 0;  // the damage model of its body
 };
-/// A shell whose drawn mesh is to be made.
-struct ShellChanged {
+/// A body whose drawn mesh is to be made anew.
+struct DrawnChanged {
     Row<Bodies> body;
     bool is_local = false;  // only cells that are changed (Cells::is_changed) are drawn otherwise than they were
 };
@@ -142,7 +142,7 @@ struct OpenedTasks {
 struct PlannedBirths {
     Events<Break>& breaks;
     Events<Birth>& births;
-    Events<ShellChanged>& changed;
+    Events<DrawnChanged>& changed;
     Events<CrackStartedEvent>& cracks;
     Events<RefusedEvent>& refused;
     Events<FaultEvent>& faults;
@@ -159,7 +159,7 @@ struct EndedTasks {
     Fragments& fragments;
     Touches& touches;
 };
-struct Crumbs {
+struct DebrisTables {
     Debris& debris;
     DebrisAges& ages;
 };
@@ -179,7 +179,7 @@ struct ToldOfGrinding {
     Events<RefusedEvent>& refused;
 };
 struct ToldOfBirths {
-    Events<ShellChanged>& changed;
+    Events<DrawnChanged>& changed;
     Events<FragmentBornEvent>& born;
     Events<DebrisEvent>& debris;
 };
@@ -192,7 +192,7 @@ inline auto queues_between(const LimitSettings& limits, const State& state) {
                   QueueOf<RegionPart>{state.marked_packs.limit() / kRowsPerChunk<MarkedPacks>},
                   QueueOf<TaskEnded>{tasks}, QueueOf<Break>{bodies + tasks},
                   QueueOf<Birth>{2 * (bodies + tasks) + limits.debris}, QueueOf<HullWanted>{state.cells.limit()},
-                  QueueOf<ShellChanged>{2 * bodies + tasks}, QueueOf<Crushed>{bodies});
+                  QueueOf<DrawnChanged>{2 * bodies + tasks}, QueueOf<Crushed>{bodies});
 }
 /// What the game reads after the step; emptied when the next one begins. Each has a `place`.
 inline auto queues_told(const LimitSettings& limits, const State& state) {

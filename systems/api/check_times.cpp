@@ -12,9 +12,9 @@ struct Times {
     std::string name, trouble;
 
     template <class Table>
-    void expect(const Table&, const char* column, uint32_t row, uint64_t frame, uint64_t latest) {
+    void expect(const Table& table, const char* column, uint32_t row, uint64_t frame, uint64_t latest) {
         if (frame <= latest || !trouble.empty()) return;
-        trouble = name + ": " + Table::kName + "." + column + "[" + std::to_string(row) + "] is " +
+        trouble = name + ": " + table.name() + "." + column + "[" + std::to_string(row) + "] is " +
                   std::to_string(frame) + ", after frame " + std::to_string(latest) +
                   ". The snapshot is damaged or of another build; take it again.";
     }

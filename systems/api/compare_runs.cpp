@@ -11,7 +11,7 @@ namespace {
 constexpr uint64_t kLargestFile = 1ull << 36;
 
 /// Steps, and looks at the state after each system. A recorded restore puts another world in the place of this one.
-void look_after_systems(Replayer& run, const std::function<void(const std::string& system, const State&)>& look) {
+void look_after_systems(Replayer& run, const std::function<void(const std::string& system, const State& state)>& look) {
     World::Contents& world = run.world().contents();
     const auto before = std::move(world.after_each_system);
     world.after_each_system = [&](const PlannedSystem<WorldData>& system) {
@@ -30,7 +30,7 @@ std::vector<std::pair<std::string, uint64_t>> hashes_of_step(Replayer& run) {
 }
 
 /// Steps, and looks at the state after the system of this place in the frame.
-void look_after_system(Replayer& run, size_t place, const std::function<void(const State&)>& look) {
+void look_after_system(Replayer& run, size_t place, const std::function<void(const State& state)>& look) {
     size_t at = 0;
     look_after_systems(run, [&](const std::string&, const State& state) {
         if (at++ == place) look(state);

@@ -62,7 +62,7 @@ Result<void> Replayer::begin() {
             return restored;
     }
     world_->set_veto(
-        [](void* self, const ImpactEvent&) {
+        [](void* self, [[maybe_unused]] const ImpactEvent& impact) {
             auto& replayer = *static_cast<Replayer*>(self);
             const auto& answers = replayer.recorded_.answers;
             return replayer.next_answer_ >= answers.size() || answers[replayer.next_answer_++] != 0;

@@ -89,7 +89,7 @@ void World::Contents::step() {
     WorldData& d = data;
     if (host.zone_begin) host.zone_begin(host.user, "cullet step");
     d.told.for_each([](auto& events) { events.clear(); });
-    d.between.of<ShellChanged>().clear();
+    d.between.of<DrawnChanged>().clear();
     d.arena.reset();
     if (recorder) recorder->begin_step();
     profiler.begin_frame(d.step_info.frame);

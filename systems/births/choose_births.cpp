@@ -25,10 +25,10 @@ bool is_small(const Planning& planning, const Break& plan, Row<Fragments> row) {
     return !f.has_pins[row] && (f.mass[row] < least_mass || f.element_count[row] < planning.settings.debris_elements);
 }
 
-void choose_crumb(Planning& planning, Break& plan, Row<Fragments> row) {
-    if (planning.crumbs_left == 0) return stay(planning, plan, row, "limits.debris");
-    --planning.crumbs_left;
-    planning.fragments.is_crumb[row] = 1;
+void choose_debris(Planning& planning, Break& plan, Row<Fragments> row) {
+    if (planning.debris_left == 0) return stay(planning, plan, row, "limits.debris");
+    --planning.debris_left;
+    planning.fragments.is_debris[row] = 1;
 }
 
 void choose_body(Planning& planning, Break& plan, Row<Fragments> row) {
@@ -48,7 +48,7 @@ void choose_births(Planning& planning, Break& plan) {
     for (uint32_t i = 1; i < plan.fragments.count; ++i) {
         const Row<Fragments> row = plan.in_order(planning.fragments, i);
         if (is_small(planning, plan, row))
-            choose_crumb(planning, plan, row);
+            choose_debris(planning, plan, row);
         else
             choose_body(planning, plan, row);
     }

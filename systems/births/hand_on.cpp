@@ -10,7 +10,7 @@ bool hand_on_push(Planning& planning, const Break& plan, uint32_t row) {
     Blows& blows = planning.blows;
     const Fragments& f = planning.fragments;
     const Row<Fragments> owner = planning.calls(plan).nearest(planning.state, plan, blows.point[row]);
-    if (f.is_crumb[owner]) {
+    if (f.is_debris[owner]) {
         remove_blow(blows, row);
         return false;
     }
@@ -68,7 +68,7 @@ void hand_on_hits(Planning& planning, const Break& plan) {
         if (!queued.is_used[q] || queued.body[q] != plan.body) continue;
         const Row<Fragments> owner = planning.calls(plan).nearest(planning.state, plan, queued.point[q]);
         // What pressed on the whole is weighed anew on its parts.
-        if (f.is_crumb[owner] || queued.load[q] > 0)
+        if (f.is_debris[owner] || queued.load[q] > 0)
             queued.clear_rows(q, 1);
         else if (f.child[owner].exists())
             queued.body[q] = f.child[owner];

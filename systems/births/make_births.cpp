@@ -43,14 +43,14 @@ void count_result(const RunRows& rows, Row<Tasks> task, DamageCounts& counts) {
 
 }  // namespace
 
-void make_births(Serial, Step step, EndedTasks over, WorldRows& rows, Blows& blows, Crumbs crumbs, RigidWorld& rigid,
-                 BirthAccounts accounts, ToldOfBirths told) {
+void make_births(Serial, Step step, EndedTasks over, WorldRows& rows, Blows& blows, DebrisTables debris_tables,
+                 RigidWorld& rigid, BirthAccounts accounts, ToldOfBirths told) {
     Births births{rows,
                   over.fragments,
                   over.touches,
                   blows,
-                  crumbs.debris,
-                  crumbs.ages,
+                  debris_tables.debris,
+                  debris_tables.ages,
                   rigid,
                   accounts.models,
                   accounts.counts,

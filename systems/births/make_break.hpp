@@ -18,7 +18,7 @@ struct Births {
     const DamageModels& models;
     DamageCounts& counts;
     Arena& arena;
-    Events<ShellChanged>& changed;
+    Events<DrawnChanged>& changed;
     Events<FragmentBornEvent>& born;
     Events<DebrisEvent>& debris_events;
     Step step;

@@ -5,7 +5,7 @@
 #include "components/body_id.hpp"
 #include "engine/rigid_bounds.hpp"
 #include "systems/births/limit_flight.hpp"
-#include "systems/births/make_crumb.hpp"
+#include "systems/births/make_debris.hpp"
 #include "systems/births/part_siblings.hpp"
 #include "systems/bodies/rigid_shape.hpp"
 #include "systems/bodies/thresholds.hpp"
@@ -17,10 +17,10 @@ namespace {
 uint32_t make_debris(Births& births, const Break& plan, Row<Fragments> f, const Moment& moment) {
     const PartMotion part = motion_of(births.fragments, f);
     const Motion motion = world_motion(moment, part);
-    return make_crumb({births.debris, births.debris_ages}, births.state.bodies, births.rigid,
-                      {plan.body, to_world(moment.pose, part.centre.to_float()), motion.velocity,
-                       births.fragments.mass[f], births.fragments.volume[f]},
-                      births.step.frame, births.debris_events);
+    return make_debris({births.debris, births.debris_ages}, births.state.bodies, births.rigid,
+                       {plan.body, to_world(moment.pose, part.centre.to_float()), motion.velocity,
+                        births.fragments.mass[f], births.fragments.volume[f]},
+                       births.step.frame, births.debris_events);
 }
 
 void place_body(Births& births, Row<Bodies> body, const Moment& moment, const Motion& motion, bool is_static,
@@ -165,7 +165,7 @@ void make_pieces(Births& births, const Break& plan, const Moment& moment) {
     Fragments& f = births.fragments;
     const uint32_t count = plan.fragments.count;
     for (uint32_t i = 1; i < count; ++i)
-        if (const Row<Fragments> row = plan.in_order(f, i); f.is_crumb[row])
+        if (const Row<Fragments> row = plan.in_order(f, i); f.is_debris[row])
             f.debris[row] = make_debris(births, plan, row, moment);
     f.child[plan.largest] = plan.body;
     const auto bounds = births.arena.take<PieceBounds>(count);

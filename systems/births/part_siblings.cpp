@@ -45,7 +45,7 @@ class Cracks {
  private:
     struct Between {
         uint32_t p, q, touch;
-        auto operator<=>(const Between&) const = default;
+        auto operator<=>(const Between& other) const = default;
     };
     std::span<Between> of_;
     std::span<CrackTouch> touches_;

@@ -18,9 +18,9 @@ struct Planning {
     Arena& arena;
     Events<Break>& breaks;
     Events<Birth>& births;
-    Events<ShellChanged>& changed;
+    Events<DrawnChanged>& changed;
     Events<RefusedEvent>& refused;
-    uint32_t crumbs_left;  // that the world has room for, less those of the breaks planned so far
+    uint32_t debris_left;  // that the world has room for, less those of the breaks planned so far
     uint32_t fragments_left = kNone, births_left = kNone;  // the same of limits.fragments and limits.births_a_frame
 
     /// Of what a body is made of.

@@ -47,12 +47,12 @@ bool take_rest_view(Planning& planning, const Break& plan) {
     return take_spare_view_rows(planning.state, plan.body, rows);
 }
 
-void give_back_crumbs(Planning& planning, Break& plan) {
+void give_back_debris(Planning& planning, Break& plan) {
     for (uint32_t i = 1; i < plan.fragments.count; ++i) {
         const Row<Fragments> row = plan.in_order(planning.fragments, i);
-        if (!planning.fragments.is_crumb[row]) continue;
-        planning.fragments.is_crumb[row] = 0;
-        ++planning.crumbs_left;
+        if (!planning.fragments.is_debris[row]) continue;
+        planning.fragments.is_debris[row] = 0;
+        ++planning.debris_left;
         stay(planning, plan, row, "limits.view_vertices");
     }
 }
@@ -76,7 +76,7 @@ bool reserve_view(Planning& planning, Break& plan) {
             give_back_body(planning, plan, plan.in_order(planning.fragments, lightest));
             continue;
         }
-        give_back_crumbs(planning, plan);
+        give_back_debris(planning, plan);
         if (take_rest_view(planning, plan)) return true;
         planning.refused.push(refused_event(planning.state.bodies, plan.body, "limits.view_vertices"));
         return false;

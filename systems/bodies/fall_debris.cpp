@@ -5,15 +5,15 @@
 namespace cullet {
 namespace {
 
-constexpr float kLargeReach = 4;  // radii of the crumb: what reaches less far is passed through, as other crumbs are
-constexpr float kBounce = 0.2f;   // of the speed that they close with, above kBounceSpeed
+constexpr float kLargeReach = 4;      // radii of the piece: what reaches less far is passed through, as other debris is
+constexpr float kBounce = 0.2f;       // of the speed that they close with, above kBounceSpeed
 constexpr float kBounceSpeed = 0.2f;  // m/s
 constexpr float kFriction = 0.5f;
 constexpr float kRestSpeed = 0.15f;   // m/s under g; where it is weaker, as much less as things fall slower
 constexpr float kRestSlope = 0.7f;    // cosine: what it lies on is no steeper than 45 degrees
-constexpr uint64_t kRestFrames = 16;  // a crumb that rests looks every so often whether it still lies on something
+constexpr uint64_t kRestFrames = 16;  // what rests looks every so often whether it still lies on something
 
-// As something of no mass: the body feels nothing of it, and what the crumb gives is booked with the ground's. It is
+// As something of no mass: the body feels nothing of it, and what the debris gives is booked with the ground's. It is
 // never sent off faster than it came, else a moving body would make energy.
 Vec3 bounced(Vec3 velocity, const RigidTouch& touch) {
     const Vec3 relative = velocity - touch.velocity;
@@ -27,7 +27,7 @@ Vec3 bounced(Vec3 velocity, const RigidTouch& touch) {
     return square > before_square ? std::sqrt(before_square / square) * after : after;
 }
 
-struct Crumb {
+struct Grain {
     Vec3 place, velocity;
     float radius;
     bool rests = false;
@@ -39,23 +39,23 @@ float rest_speed(Vec3 gravity) {
 }
 
 // The way of a step, and of what is left of it along the surface that it meets; what it meets there stops it.
-void fly(Crumb& crumb, const RigidWorld& rigid, Step step) {
+void fly(Grain& grain, const RigidWorld& rigid, Step step) {
     float left = step.dt;
     for (int turn = 0; turn < 2; ++turn) {
-        const Vec3 to = crumb.place + left * crumb.velocity;
+        const Vec3 to = grain.place + left * grain.velocity;
         RigidTouch touch;
-        if (!rigid.first_touch(crumb.place, to, left, crumb.radius, kLargeReach * crumb.radius, touch)) {
-            crumb.place = to;
+        if (!rigid.first_touch(grain.place, to, left, grain.radius, kLargeReach * grain.radius, touch)) {
+            grain.place = to;
             return;
         }
-        crumb.place = touch.place;
-        crumb.velocity = bounced(crumb.velocity, touch);
+        grain.place = touch.place;
+        grain.velocity = bounced(grain.velocity, touch);
         left *= 1 - touch.share;
         const float up = -dot(touch.normal, step.gravity);
-        if (touch.is_still && length(crumb.velocity) < rest_speed(step.gravity) &&
+        if (touch.is_still && length(grain.velocity) < rest_speed(step.gravity) &&
             up > kRestSlope * length(step.gravity)) {
-            crumb.rests = true;
-            crumb.velocity = {};
+            grain.rests = true;
+            grain.velocity = {};
             return;
         }
     }
@@ -81,22 +81,22 @@ void fall_debris(Serial, Step step, const RigidWorld& rigid, Debris& debris, Dam
             debris.is_resting[d] = 0;
         }
         const Vec3 falling = debris.velocity[d] + step.dt * step.gravity;
-        Crumb crumb{debris.position[d], falling, debris.radius[d]};
+        Grain grain{debris.position[d], falling, debris.radius[d]};
         if (meets_bodies)
-            fly(crumb, rigid, step);
+            fly(grain, rigid, step);
         else
-            crumb.place = crumb.place + step.dt * crumb.velocity;
-        if (crumb.place.y <= debris.floor[d]) {
-            crumb.place.y = debris.floor[d];
-            crumb.velocity = {};
-            crumb.rests = true;
+            grain.place = grain.place + step.dt * grain.velocity;
+        if (grain.place.y <= debris.floor[d]) {
+            grain.place.y = debris.floor[d];
+            grain.velocity = {};
+            grain.rests = true;
         }
-        const Vec3d given = debris.mass[d] * (Vec3d(falling) - Vec3d(crumb.velocity));
+        const Vec3d given = debris.mass[d] * (Vec3d(falling) - Vec3d(grain.velocity));
         counts.impulse_to_static[0] += given.x, counts.impulse_to_static[1] += given.y;
         counts.impulse_to_static[2] += given.z;
-        debris.position.set(d, crumb.place);
-        debris.velocity.set(d, crumb.velocity);
-        debris.is_resting[d] = crumb.rests;
+        debris.position.set(d, grain.place);
+        debris.velocity.set(d, grain.velocity);
+        debris.is_resting[d] = grain.rests;
     }
 }
 

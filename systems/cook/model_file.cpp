@@ -129,7 +129,7 @@ Result<Found> find_all(std::span<const uint8_t> payload, const std::string& name
     like.structures.clear_rows(0, 1);
     found.shell = reader.is_sound() ? find_table(reader, like.shells) : FoundTable{};
     found.metal = reader.is_sound() ? find_table(reader, like.metal_shells) : FoundTable{};
-    for_each_part(like, Row<Structures>(0), [&](const AnyTable& table, const Range&) {
+    for_each_part(like, Row<Structures>(0), [&](const AnyTable& table, [[maybe_unused]] const Range& range) {
         found.parts.push_back(reader.is_sound() ? find_table(reader, table) : FoundTable{});
     });
     reader.expect(reader.is_at_end(), "the last table ends before the file does,");
@@ -204,7 +204,8 @@ Result<Row<Structures>> copy_rows(Workbench& state, const Found& found, const st
         return damaged(name, std::string("its counts do not fit each other (") + full + ")");
     const Row<MetalShells> metal_row = metal_of(state, shell);
     std::vector<Range> own;
-    for_each_part(state, shell, [&](const AnyTable&, const Range& range) { own.push_back(range); });
+    for_each_part(state, shell,
+                  [&]([[maybe_unused]] const AnyTable& table, const Range& range) { own.push_back(range); });
     const Row<Shells> row = state.shell_of(shell);
     found.structure.copy_to(state.structures, shell);
     found.shell.copy_to(state.shells, row);
@@ -229,7 +230,7 @@ Result<Row<Structures>> copy_rows(Workbench& state, const Found& found, const st
         ++part;
     });
     part = 0;
-    for_each_part(state, shell, [&](const AnyTable&, Range& range) {
+    for_each_part(state, shell, [&]([[maybe_unused]] const AnyTable& table, Range& range) {
         range = own[part];
         range.count = found.parts[part++].rows;
     });

@@ -46,7 +46,7 @@ void bound_redrawn(Bodies& bodies, Row<Bodies> body, const ViewVertices& vertice
     bound(bodies, body, vertices, indices, boxes, false);
 }
 
-void bound_drawn(Each<ShellChanged> changed, Bodies& bodies, const ViewVertices& vertices, const ViewIndices& indices,
+void bound_drawn(Each<DrawnChanged> changed, Bodies& bodies, const ViewVertices& vertices, const ViewIndices& indices,
                  ViewBoxes& boxes) {
     const Row<Bodies> body = changed->body;
     if (static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Free) return;

@@ -1,19 +1,11 @@
 #include "systems/hulls/box_levels.hpp"
 
-#include <array>
+#include "systems/hulls/morton.hpp"
 
 namespace cullet {
 namespace {
 
 constexpr uint32_t kCells = 1024;  // an axis
-
-uint32_t spread(uint32_t ten_bits) {
-    uint32_t x = ten_bits & 1023u;
-    x = (x | x << 16) & 0x030000ffu;
-    x = (x | x << 8) & 0x0300f00fu;
-    x = (x | x << 4) & 0x030c30c3u;
-    return (x | x << 2) & 0x09249249u;
-}
 
 uint32_t cell_of(float at, float low, float high) {
     const float share = kCells * ((at - low) / (high - low));
@@ -39,20 +31,15 @@ void BoxLevels::build(std::span<const uint32_t> items, std::span<const AxisBox> 
     order_.assign(items.begin(), items.end());
     codes_.resize(items.size());
     sorted_.resize(items.size());
-    // Codes by place; places are sorted in three stable passes of ten bits.
+    // Codes by place.
     for (size_t k = 0; k < items.size(); ++k) {
         const Vec3 at = middle(extents[items[k]]);
-        codes_[k] = spread(cell_of(at.x, all.low.x, all.high.x)) | spread(cell_of(at.y, all.low.y, all.high.y)) << 1 |
-                    spread(cell_of(at.z, all.low.z, all.high.z)) << 2;
+        codes_[k] = spread_bits(cell_of(at.x, all.low.x, all.high.x)) |
+                    spread_bits(cell_of(at.y, all.low.y, all.high.y)) << 1 |
+                    spread_bits(cell_of(at.z, all.low.z, all.high.z)) << 2;
         order_[k] = static_cast<uint32_t>(k);
     }
-    for (uint32_t shift = 0; shift < 30; shift += 10) {
-        std::array<uint32_t, 1025> start{};
-        for (const uint32_t code : codes_) ++start[((code >> shift) & 1023u) + 1];
-        for (size_t k = 0; k < 1024; ++k) start[k + 1] += start[k];
-        for (const uint32_t place : order_) sorted_[start[(codes_[place] >> shift) & 1023u]++] = place;
-        order_.swap(sorted_);
-    }
+    sort_by_code(codes_, order_, sorted_);
     for (uint32_t& place : order_) place = items[place];
 
     levels_.clear();

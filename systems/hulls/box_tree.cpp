@@ -1,15 +1,9 @@
 #include "systems/hulls/box_tree.hpp"
 
+#include "systems/hulls/morton.hpp"
+
 namespace cullet {
 namespace {
-
-uint32_t spread(uint32_t ten_bits) {
-    uint32_t x = ten_bits & 1023u;
-    x = (x | x << 16) & 0x030000ffu;
-    x = (x | x << 8) & 0x0300f00fu;
-    x = (x | x << 4) & 0x030c30c3u;
-    return (x | x << 2) & 0x09249249u;
-}
 
 std::vector<uint32_t> morton_codes(std::span<const TreeBox> boxes) {
     TreeBox all;
@@ -22,24 +16,17 @@ std::vector<uint32_t> morton_codes(std::span<const TreeBox> boxes) {
         uint32_t code = 0;
         for (size_t k = 0; k < 3; ++k) {
             const float at = (0.5f * (b.low[k] + b.high[k]) - all.low[k]) * per_length[k];
-            code |= spread(static_cast<uint32_t>(std::clamp(at, 0.0f, 1023.0f))) << k;
+            code |= spread_bits(static_cast<uint32_t>(std::clamp(at, 0.0f, 1023.0f))) << k;
         }
         codes.push_back(code);
     }
     return codes;
 }
 
-// Three stable passes of ten bits: equal codes keep the order of their ids.
 std::vector<uint32_t> sorted_by_code(const std::vector<uint32_t>& codes) {
     std::vector<uint32_t> order(codes.size()), sorted(codes.size());
     for (uint32_t k = 0; k < order.size(); ++k) order[k] = k;
-    for (uint32_t shift = 0; shift < 30; shift += 10) {
-        std::array<uint32_t, 1025> start{};
-        for (const uint32_t code : codes) ++start[((code >> shift) & 1023u) + 1];
-        for (size_t k = 0; k < 1024; ++k) start[k + 1] += start[k];
-        for (const uint32_t item : order) sorted[start[(codes[item] >> shift) & 1023u]++] = item;
-        order.swap(sorted);
-    }
+    sort_by_code(codes, order, sorted);
     return order;
 }
 

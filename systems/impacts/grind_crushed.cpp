@@ -1,5 +1,5 @@
 #include "components/body_id.hpp"
-#include "systems/births/make_crumb.hpp"
+#include "systems/births/make_debris.hpp"
 #include "systems/impacts/opening.hpp"
 #include "systems/systems.hpp"
 #include "systems/tasks/take_out.hpp"
@@ -16,15 +16,15 @@ ImpactEvent event_of(const Bodies& bodies, const Crushed& c) {
 }  // namespace
 
 void grind_crushed(Serial, Step step, const Events<Crushed>& crushed, WorldRows& rows, WaitingHits waiting,
-                   Crumbs crumbs, const DamageModels& models, RigidWorld& rigid, ToldOfGrinding told) {
+                   DebrisTables debris_tables, const DamageModels& models, RigidWorld& rigid, ToldOfGrinding told) {
     const Bodies& bodies = rows.bodies;
     // All are told of before any goes: two that lie on each other are named by each other's events.
     uint32_t ground = 0;
     for (const Crushed& c : crushed) {
         const double mass = bodies.mass[c.body],
                      density = rows.materials.density[rows.structures.material[bodies.structure[c.body]]];
-        const NewCrumb crumb{c.body, centre_of(bodies, c.body), bodies.velocity[c.body], mass, mass / density};
-        if (make_crumb(crumbs, bodies, rigid, crumb, step.frame, told.debris) == kNone) {
+        const NewDebris piece{c.body, centre_of(bodies, c.body), bodies.velocity[c.body], mass, mass / density};
+        if (make_debris(debris_tables, bodies, rigid, piece, step.frame, told.debris) == kNone) {
             told.refused.push(refused_event(bodies, c.body, "limits.debris"));
             continue;
         }

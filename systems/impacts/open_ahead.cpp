@@ -32,8 +32,8 @@ class AtTheTouch {
             put(f.body, f.pose, f.motion);
         }
     }
-    AtTheTouch(const AtTheTouch&) = delete;
-    AtTheTouch& operator=(const AtTheTouch&) = delete;
+    AtTheTouch(const AtTheTouch& other) = delete;
+    AtTheTouch& operator=(const AtTheTouch& other) = delete;
 
     void put(const ForeseenHit& hit) {
         for (uint32_t k = 0; k < count_; ++k)

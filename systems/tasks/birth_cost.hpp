@@ -1,8 +1,11 @@
 #pragma once
 #include "components/tasks.hpp"
-#include "systems/costs.hpp"
 
 namespace cullet {
+
+// A vertex of a body whose pieces are born: rows, hulls, drawn meshes, and where one worker has it the waiting of the
+// other. 3.1 microseconds over all breaks of scene demolition, 7 where 150 pieces leave a house at once.
+inline constexpr uint64_t kUnitsBirth = 2500;  // of 2 ns of one thread
 
 /// Units of what the last repetition of a run brings with it where something has cracked: pieces, hulls, drawn meshes.
 /// `points`: of the task's structure, that are gone through. What was foreseen pays when it is touched.

@@ -5,7 +5,7 @@
 
 #include "components/state.hpp"
 #include "systems/bodies/thresholds.hpp"
-#include "systems/costs.hpp"
+#include "systems/tasks/birth_cost.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

@@ -54,9 +54,9 @@ std::string flaw_of_fragments(const State& state, const Break& plan, bool are_fi
     for (const Row<Fragments> row : plan.fragments) {
         mass += f.mass[row], elements += f.element_count[row];
         if (row == plan.largest && leaves(f, row)) return "the largest leaves: " + f.describe_row(row);
-        if (f.child[row].exists() && (f.is_crumb[row] || state.bodies.parent[f.child[row]] != plan.body))
+        if (f.child[row].exists() && (f.is_debris[row] || state.bodies.parent[f.child[row]] != plan.body))
             return "no child of the body: " + f.describe_row(row);
-        if (are_filled && f.is_crumb[row] && !(f.volume[row] > 0))
+        if (are_filled && f.is_debris[row] && !(f.volume[row] > 0))
             return "a crumb without volume: " + f.describe_row(row);
         const Row<Fragments> next(f.order[row]);
         if (next < plan.fragments.first || next >= plan.fragments.first + plan.fragments.count)

@@ -17,7 +17,7 @@ Settings falling() {
     return settings;
 }
 
-uint32_t throw_crumb(World& world, Vec3 place, Vec3 velocity) {
+uint32_t throw_debris(World& world, Vec3 place, Vec3 velocity) {
     Debris& debris = state_of(world).debris;
     const uint32_t row = debris.append(1);
     debris.is_used[row] = 1;
@@ -46,8 +46,8 @@ TEST(Debris, FallsOffTheTableToTheGround) {
     World world = make_world(falling());
     add_floor(world);
     add_table(world);
-    const uint32_t stays = throw_crumb(world, {-0.1f, 0.6f, 0}, {}),
-                   leaves = throw_crumb(world, {0, 0.6f, 0}, {4, 0, 0});
+    const uint32_t stays = throw_debris(world, {-0.1f, 0.6f, 0}, {}),
+                   leaves = throw_debris(world, {0, 0.6f, 0}, {4, 0, 0});
     const Debris& debris = state_of(world).debris;
     step(world, 180);
     EXPECT_NEAR(debris.position[stays].y, 0.5f + kRadius, 0.002f);
@@ -62,7 +62,7 @@ TEST(Debris, WhatItRestsOnGoesAndItFallsOn) {
     const Vec3 corners[] = {{-1, 0.5f, -1}, {-1, 0.5f, 1}, {1, 0.5f, 1}, {1, 0.5f, -1}};
     const uint32_t quad[] = {0, 1, 2, 0, 2, 3};
     const BodyId shelf = world.add_static({corners, 4, quad, 2}).value();
-    const uint32_t row = throw_crumb(world, {0, 0.6f, 0}, {});
+    const uint32_t row = throw_debris(world, {0, 0.6f, 0}, {});
     const Debris& debris = state_of(world).debris;
     step(world, 60);
     EXPECT_TRUE(debris.is_resting[row]);
@@ -82,10 +82,10 @@ TEST(Debris, NoSpeedTakesItThroughALargeBody) {
     (void)world.spawn(world.add_model(small_pane()).value(), pane).value();
     std::vector<uint32_t> rows;
     for (int k = 0; k < 60; ++k)
-        rows.push_back(throw_crumb(world,
-                                   {0.01f * static_cast<float>(k % 10) - 0.05f,
-                                    0.1f + 0.01f * static_cast<float>(k / 10), 0.3f + 0.007f * static_cast<float>(k)},
-                                   {0, 0, -1.0f - 3 * static_cast<float>(k)}));
+        rows.push_back(throw_debris(world,
+                                    {0.01f * static_cast<float>(k % 10) - 0.05f,
+                                     0.1f + 0.01f * static_cast<float>(k / 10), 0.3f + 0.007f * static_cast<float>(k)},
+                                    {0, 0, -1.0f - 3 * static_cast<float>(k)}));
     const Debris& debris = state_of(world).debris;
     for (int frame = 0; frame < 40; ++frame) {
         world.step();
@@ -100,7 +100,7 @@ TEST(Debris, NothingThatMovesMakesItFasterThanItWas) {
     ram.pose.position = {0, 0, -1};
     ram.motion.velocity = {0, 0, 3};
     (void)world.add_kinematic_box(ram).value();
-    const uint32_t row = throw_crumb(world, {0, 0, 0}, {0, 0, -1});
+    const uint32_t row = throw_debris(world, {0, 0, 0}, {0, 0, -1});
     const Debris& debris = state_of(world).debris;
     for (int frame = 0; frame < 60; ++frame) {
         world.step();

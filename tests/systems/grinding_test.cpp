@@ -167,7 +167,7 @@ void expect_nothing_deep(bool is_solid, bool has_block = false) {
         const Matter matter = measure_matter(game->world());
         // Skins of a solid leave a little out each time that it is cut.
         EXPECT_NEAR(matter.mass, game->mass_put_in(), (is_solid ? 1e-3 : 1e-9) * matter.mass);
-        std::printf("seed %u: %s: %u pieces, %llu crumbs, worst %.1f mm of %.1f, %u through, %.1f mm in the block\n",
+        std::printf("seed %u: %s: %u pieces, %llu debris, worst %.1f mm of %.1f, %u through, %.1f mm in the block\n",
                     seed, press.told.c_str(), game->world().fragments(nullptr, 0),
                     static_cast<unsigned long long>(game->sums().events["debris"]), 1000 * depth.of, 1000 * depth.size,
                     through, 1000 * in_block);
@@ -244,7 +244,7 @@ TEST(Grinding, IsTheSameOnAnyNumberOfThreads) {
     }
 }
 
-TEST(Grinding, WithoutRoomForCrumbsPiecesStayAndItIsSaid) {
+TEST(Grinding, WithoutRoomForDebrisPiecesStayAndItIsSaid) {
     Result<GameWorld> game = world_of(pressed_box("game.setting{limits = {debris = 5}} "));
     ASSERT_TRUE(game.ok()) << game.error();
     for (int frame = 0; frame < 60; ++frame) play_frame(*game);

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 // Today's counts.
 constexpr uint32_t kFilesWithState = 0;
-constexpr uint32_t kUnnamedParameters = 16;  // copies that are deleted, calls that need no argument; none of a system
+constexpr uint32_t kUnnamedParameters = 0;
 constexpr uint32_t kMutualFolders = 0;
 constexpr uint32_t kWideSystems = 0;
 constexpr uint32_t kManyTables = 24;
@@ -102,7 +102,7 @@ TEST(House, TableParametersWithoutANameGetFewer) {
     uint32_t parameters = 0;
     for (const Source& source : sources_of_systems())
         if (source.path.ends_with(".cpp")) parameters += matches(source.text, unnamed);
-    EXPECT_LE(parameters, kUnnamedParameters) << "wanted: 0";
+    EXPECT_LE(parameters, kUnnamedParameters) << "a parameter without a name hides what a function reaches";
 }
 
 TEST(House, FoldersThatIncludeEachOtherGetFewer) {

@@ -33,7 +33,7 @@ TEST(Soak, FragmentsComeAndGoAndMemoryAndHandlesStayGood) {
     EXPECT_GE(r.most_alive, alive / 2);
     EXPECT_TRUE(r.is_stale_refused);
     EXPECT_EQ(r.faults, 0u);
-    std::printf("%llu born in %llu frames, at most %u alive, %llu retired, %llu crumbs faded, %llu refused\n",
+    std::printf("%llu born in %llu frames, at most %u alive, %llu retired, %llu debris faded, %llu refused\n",
                 static_cast<unsigned long long>(r.born), static_cast<unsigned long long>(r.frames), r.most_alive,
                 static_cast<unsigned long long>(r.retired), static_cast<unsigned long long>(r.faded),
                 static_cast<unsigned long long>(r.refused));

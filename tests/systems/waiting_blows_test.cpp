@@ -64,7 +64,7 @@ Vec3 lost_place(const std::vector<Vec3>& before, const std::vector<Vec3>& left) 
     return lost;
 }
 
-TEST(WaitingBlows, APushOnWhatBecomesACrumbStrikesNothingElse) {
+TEST(WaitingBlows, APushOnWhatBecomesDebrisStrikesNothingElse) {
     Settings settings = sliced_settings();
     settings.debris_elements = 1'000'000;  // all but the largest piece are crumbs
     Waiting twin(settings);

@@ -201,13 +201,13 @@ TEST(WorldCalls, DebrisIsToldWithItsParentAndNoMassIsLost) {
     settings.debris_share = 0.05f;
     Breakage b = vase_and_ball(settings, 12);
     const double before = b.world.mass(b.body).value();
-    double crumbs = 0, bodies = 0;
+    double debris = 0, bodies = 0;
     uint32_t count = 0;
     for (int frame = 0; frame < 20; ++frame) {
         b.world.step();
         for (const DebrisEvent& e : b.world.events().debris) {
             ++count;
-            crumbs += e.mass;
+            debris += e.mass;
             EXPECT_LT(e.mass, 0.05 * before);
             EXPECT_EQ(e.body_user_data, 42u);
             EXPECT_TRUE(b.world.is_alive(e.parent));
@@ -218,7 +218,7 @@ TEST(WorldCalls, DebrisIsToldWithItsParentAndNoMassIsLost) {
     for (const BodyId body : shells_of(b.world)) bodies += b.world.mass(body).value();
     EXPECT_GT(count, 0u);
     EXPECT_EQ(b.world.report().debris, count);
-    EXPECT_NEAR(bodies + crumbs, before, 1e-6 * before);
+    EXPECT_NEAR(bodies + debris, before, 1e-6 * before);
 }
 
 TEST(WorldCalls, ABodySpawnedBetweenStepsHasAllOfItsMeshDirtyUntilTheNextStepIsOver) {

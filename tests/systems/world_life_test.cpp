@@ -207,7 +207,7 @@ TEST(WorldLimits, EveryAmountOfRoomForDrawnVerticesKeepsTheMassAndTheMeshes) {
     EXPECT_EQ(names, std::set<std::string>{"limits.view_vertices"});
 }
 
-TEST(WorldLimits, CrumbsBeyondTheLimitStayPartOfTheirParent) {
+TEST(WorldLimits, DebrisBeyondTheLimitStayPartOfTheirParent) {
     Settings settings = small_settings();
     settings.limits.debris = 1;
     settings.debris_share = 0.05f;  // many crumbs
@@ -216,7 +216,7 @@ TEST(WorldLimits, CrumbsBeyondTheLimitStayPartOfTheirParent) {
     EXPECT_EQ(b.world.report().debris, 1u);
 }
 
-TEST(WorldLimits, TwoThatBreakInOneFrameShareTheRoomForCrumbs) {
+TEST(WorldLimits, TwoThatBreakInOneFrameShareTheRoomForDebris) {
     Settings settings = small_settings();
     settings.limits.debris = 2;
     settings.debris_share = 0.05f;

@@ -1,8 +1,8 @@
 #include "systems/models/thick_shell/hidden/run_out.hpp"
 #include "systems/models/thick_shell/shared/cut_out.hpp"
 #include "systems/models/thick_shell/shared/quick_body.hpp"
+#include "systems/models/thick_shell/systems.hpp"
 #include "systems/structures/shell/flood_parts.hpp"
-#include "systems/systems.hpp"
 
 namespace cullet {
 

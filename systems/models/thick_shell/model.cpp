@@ -15,7 +15,7 @@
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/models/thick_shell/soft/soft_calls.hpp"
 #include "systems/models/thick_shell/spawn_calls.hpp"
-#include "systems/systems.hpp"
+#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet {
 

@@ -117,8 +117,8 @@ HitReport finish_hit(RunRows& state, std::span<FragmentPart> parts) {
     return report;
 }
 
-HitReport run_hit(RunRows& state, Row<Structures> shell, const HitDescription& hit, bool (*is_over)(const RunRows&),
-                  std::span<FragmentPart> parts) {
+HitReport run_hit(RunRows& state, Row<Structures> shell, const HitDescription& hit,
+                  bool (*is_over)(const RunRows& rows), std::span<FragmentPart> parts) {
     if (!open_hit(state, shell, hit)) {
         HitReport report;
         report.dropped = true;

@@ -5,10 +5,10 @@
 
 #include "components/blows.hpp"
 #include "components/shell_groups.hpp"
+#include "systems/models/thick_shell/systems.hpp"
 #include "systems/structures/shell/cell_elements.hpp"
 #include "systems/structures/shell/prism.hpp"
 #include "systems/structures/shell/ring.hpp"
-#include "systems/systems.hpp"
 
 namespace cullet {
 namespace {

@@ -1,13 +1,13 @@
 #include <algorithm>
 
 #include "systems/bodies/rigid_shape.hpp"
-#include "systems/costs.hpp"
+#include "systems/structures/shell/costs.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 #include "systems/structures/shell/make_piece.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
 #include "systems/structures/shell/rest_of_body.hpp"
-#include "systems/systems.hpp"
+#include "systems/structures/shell/systems.hpp"
 
 namespace cullet {
 namespace {

@@ -96,7 +96,7 @@ Rows<Touches> crack_touches(ShellView shell, Row<Fragments> first, bool is_local
             if (a != b) visit(edges[i], a, b);
         }
     };
-    for_each_crack([&](const CrackEdge&, uint32_t, uint32_t) { wanted += 4; });
+    for_each_crack([&]([[maybe_unused]] const CrackEdge& edge, uint32_t, uint32_t) { wanted += 4; });
     const uint32_t made = touches.append(wanted);
     if (made == kNone) return {};
     uint32_t next = made;

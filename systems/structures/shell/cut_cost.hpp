@@ -1,7 +1,7 @@
 #pragma once
 #include "components/blows.hpp"
 #include "components/shells.hpp"
-#include "systems/costs.hpp"
+#include "systems/structures/shell/costs.hpp"
 
 namespace cullet {
 

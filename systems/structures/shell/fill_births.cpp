@@ -3,7 +3,7 @@
 #include "systems/structures/shell/make_piece.hpp"
 #include "systems/structures/shell/piece_shape.hpp"
 #include "systems/structures/shell/rest_of_body.hpp"
-#include "systems/systems.hpp"
+#include "systems/structures/shell/systems.hpp"
 
 namespace cullet {
 namespace {

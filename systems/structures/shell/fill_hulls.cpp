@@ -1,6 +1,6 @@
 #include "systems/hulls/extreme_points.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
-#include "systems/systems.hpp"
+#include "systems/structures/shell/systems.hpp"
 
 namespace cullet {
 

@@ -3,49 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/structures/shell/near_vertices.hpp"
 #include "systems/structures/shell/vertex_sums.hpp"
 
 namespace cullet {
 namespace {
 
-/// Calls visit(vertex, square of its distance) for those of rows [first, end) that are nearer than the root of `reach`,
-/// rising; visit may lower it. Nearly all are far away: blocks of a constant count vectorise.
-template <class Visit>
-void visit_rows(const ShellView& shell, uint32_t begin, uint32_t end, Vec3 place, const float& reach, Visit&& visit) {
-    constexpr uint32_t kBlock = 32;
-    const Vertices& vertices = shell.state.vertices;
-    const uint32_t first = shell.vertex(0);
-    const float *x = vertices.rest.lane(0) + first, *y = vertices.rest.lane(1) + first,
-                *z = vertices.rest.lane(2) + first;
-    float square[kBlock];
-    for (uint32_t block = begin; block < end; block += kBlock) {
-        const uint32_t rows = std::min(kBlock, end - block);
-        const float most = reach;
-        int any = 0;
-        const auto measure = [&](uint32_t i) {
-            const float dx = x[block + i] - place.x, dy = y[block + i] - place.y, dz = z[block + i] - place.z;
-            square[i] = dx * dx + dy * dy + dz * dz;
-            any |= square[i] < most;
-        };
-        if (rows == kBlock)
-            for (uint32_t i = 0; i < kBlock; ++i) measure(i);
-        else
-            for (uint32_t i = 0; i < rows; ++i) measure(i);
-        if (!any) continue;
-        for (uint32_t i = 0; i < rows; ++i)
-            if (square[i] < reach && vertices.element[first + block + i] != kNone) visit(block + i, square[i]);
-    }
-}
-
 /// Of the whole shell. Where it keeps the boxes of its blocks, those that are too far away are not looked into.
 template <class Visit>
 void visit_near(const ShellView& shell, Vec3 place, const float& reach, Visit&& visit) {
     const uint32_t count = shell.vertex_count();
-    if (!keeps_vertex_sums(shell)) return visit_rows(shell, 0, count, place, reach, visit);
+    if (!keeps_vertex_sums(shell)) return visit_rows_near(shell, 0, count, place, reach, visit);
     for (uint32_t b = 0; b < block_count(shell); ++b) {
         if (!(square_to_block(shell, b, place) < reach)) continue;
         const uint32_t begin = b * kVerticesPerBlock, end = std::min(begin + kVerticesPerBlock, count);
-        visit_rows(shell, begin, end, place, reach, visit);
+        visit_rows_near(shell, begin, end, place, reach, visit);
     }
 }
 
@@ -58,7 +30,7 @@ float reach_of_nearest(const ShellView& shell, Vec3 place) {
     for (uint32_t b = 0; b < block_count(shell); ++b)
         if (const float square = square_to_block(shell, b, place); square < least) least = square, best = b;
     const uint32_t begin = best * kVerticesPerBlock, end = std::min(begin + kVerticesPerBlock, shell.vertex_count());
-    visit_rows(shell, begin, end, place, reach, [&](uint32_t, float square) { reach = square; });
+    visit_rows_near(shell, begin, end, place, reach, [&](uint32_t, float square) { reach = square; });
     return std::nextafter(reach, 2e30f);
 }
 

@@ -3,7 +3,7 @@
 #include "systems/structures/shell/fragment_calls.hpp"
 #include "systems/structures/shell/rest_calls.hpp"
 #include "systems/structures/shell/surface_calls.hpp"
-#include "systems/systems.hpp"
+#include "systems/structures/shell/systems.hpp"
 
 namespace cullet {
 

@@ -20,7 +20,7 @@ void fill_solids(Each<Birth> birth, const Events<Break>& breaks, All<SolidRows, 
         fragments.volume[f] = room->broken.pieces[piece].volume;
 }
 
-void draw_solids(Each<ShellChanged> changed, Step step, DrawnSolids rows) {
+void draw_solids(Each<DrawnChanged> changed, Step step, DrawnSolids rows) {
     const Row<Bodies> body = changed->body;
     if (static_cast<BodyKind>(rows.bodies.kind[body]) == BodyKind::Free) return;
     if (is_shell(rows.structures, rows.bodies.structure[body])) return;

@@ -9,6 +9,6 @@ namespace cullet {
 void fill_solids(Each<Birth> birth, const Events<Break>& breaks, All<SolidRows, const Tasks> rows, Fragments& fragments,
                  const Bodies& bodies);
 /// The drawn mesh of each solid that changed.
-void draw_solids(Each<ShellChanged> changed, Step step, DrawnSolids rows);
+void draw_solids(Each<DrawnChanged> changed, Step step, DrawnSolids rows);
 
 }  // namespace cullet

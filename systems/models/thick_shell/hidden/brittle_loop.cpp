@@ -1,7 +1,7 @@
 #include "systems/models/thick_shell/hidden/brittle_loop.hpp"
 
-#include "systems/costs.hpp"
-#include "systems/systems.hpp"
+#include "systems/models/thick_shell/shared/costs.hpp"
+#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet {
 

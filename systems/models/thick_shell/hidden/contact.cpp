@@ -6,6 +6,7 @@
 #include "systems/cook/materials.hpp"
 #include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/stiffness/pair_cells.hpp"
+#include "systems/structures/shell/near_vertices.hpp"
 #include "systems/structures/shell/patch_radius.hpp"
 #include "systems/structures/shell/ring.hpp"
 
@@ -53,32 +54,11 @@ void find_candidates(const ShellView& shell, uint32_t centre, double radius, Pat
     const uint32_t c = shell.vertex(centre);
     const Vec3 from = vertices.rest[c], inward = vertices.inward[c];
     const float reach = static_cast<float>(radius * radius);
-    const uint32_t first = shell.vertex(0), count = shell.vertex_count();
-    const float *x = vertices.rest.lane(0) + first, *y = vertices.rest.lane(1) + first,
-                *z = vertices.rest.lane(2) + first;
-    // Nearly all vertices are far away: blocks of a constant count vectorise.
-    constexpr uint32_t kBlock = 32;
-    float squared[kBlock];
-    for (uint32_t block = 0; block < count; block += kBlock) {
-        const uint32_t rows = std::min(kBlock, count - block);
-        int any = 0;
-        const auto measure = [&](uint32_t i) {
-            const float dx = x[block + i] - from.x, dy = y[block + i] - from.y, dz = z[block + i] - from.z;
-            squared[i] = dx * dx + dy * dy + dz * dz;
-            any |= squared[i] < reach;
-        };
-        if (rows == kBlock)
-            for (uint32_t i = 0; i < kBlock; ++i) measure(i);
-        else
-            for (uint32_t i = 0; i < rows; ++i) measure(i);
-        if (!any) continue;
-        for (uint32_t i = 0; i < rows; ++i) {
-            const uint32_t v = block + i, row = first + v;
-            if (!(squared[i] < reach) || vertices.element[row] == kNone) continue;
-            if (v != centre && !(dot(vertices.inward[row], inward) > 0)) continue;
-            patch.add({vertices.mass[row] * (1 - double{squared[i]} / (radius * radius)), v});
-        }
-    }
+    visit_rows_near(shell, 0, shell.vertex_count(), from, reach, [&](uint32_t v, float square) {
+        const uint32_t row = shell.vertex(v);
+        if (v != centre && !(dot(vertices.inward[row], inward) > 0)) return;
+        patch.add({vertices.mass[row] * (1 - double{square} / (radius * radius)), v});
+    });
 }
 
 /// Leaves the candidates that hang together with the ball's footprint. A ball touches little more than a point; the

@@ -2,7 +2,7 @@
 
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
 #include "systems/models/thick_shell/stiffness/assemble.hpp"
-#include "systems/systems.hpp"
+#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet {
 

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
-#include "systems/costs.hpp"
 #include "systems/models/thick_shell/hidden/crack_candidates.hpp"
+#include "systems/models/thick_shell/shared/costs.hpp"
 #include "systems/models/thick_shell/shared/cut_rows.hpp"
 #include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/models/thick_shell/stiffness/assemble.hpp"
+#include "systems/structures/shell/costs.hpp"
 #include "systems/structures/shell/vertex_sums.hpp"
 
 namespace cullet {

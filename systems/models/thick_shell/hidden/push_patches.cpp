@@ -1,5 +1,5 @@
 #include "systems/models/thick_shell/hidden/contact.hpp"
-#include "systems/systems.hpp"
+#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet {
 

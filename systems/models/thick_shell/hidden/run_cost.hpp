@@ -1,7 +1,8 @@
 // What hidden runs cost, in units.
 #pragma once
 #include "components/run_rows.hpp"
-#include "systems/costs.hpp"
+#include "systems/models/thick_shell/shared/costs.hpp"
+#include "systems/structures/shell/costs.hpp"
 #include "systems/tasks/birth_cost.hpp"
 
 namespace cullet {

@@ -117,18 +117,8 @@ void list_edges(const Layout& layout, const SpringView& view) {
     layout.for_each_element([&](uint32_t e) {
         for (uint32_t k = 0; k < 3; ++k) {
             if (!layout.owns(e, k)) continue;
-            const auto& corner = state.elements.corner[shell.element(e)];
-            const uint32_t row = view.spring(next), other = state.elements.neighbour[shell.element(e)][k];
-            state.springs.a[row] = corner[k], state.springs.b[row] = corner[(k + 1) % 3];
-            state.springs.element[row] = e;
-            state.springs.can_crack[row] = 1;
-            state.springs.place[row] = {kNone, kNone};
-            state.element_springs.spring[view.edges(e)][k] = next;
-            if (other != kNone && layout.is_awake(other))
-                for (uint32_t j = 0; j < 3; ++j)
-                    if (state.elements.neighbour[shell.element(other)][j] == e)
-                        state.element_springs.spring[view.edges(other)][j] = next;
-            ++next;
+            const uint32_t other = state.elements.neighbour[shell.element(e)][k];
+            name_spring(view, e, k, other != kNone && layout.is_awake(other) ? other : kNone, next++);
         }
     });
     state.shell_springs.springs[view.row].count = next;

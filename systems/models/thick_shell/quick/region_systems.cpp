@@ -2,9 +2,10 @@
 #include "systems/models/thick_shell/quick/grow_region.hpp"
 #include "systems/models/thick_shell/quick/quick_loop.hpp"
 #include "systems/models/thick_shell/quick/region_motion.hpp"
+#include "systems/models/thick_shell/shared/count_step.hpp"
 #include "systems/models/thick_shell/springs/press_layers.hpp"
 #include "systems/models/thick_shell/springs/spring_packs.hpp"
-#include "systems/systems.hpp"
+#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet {
 
@@ -29,16 +30,6 @@ void integrate_region(Rows<MarkedPacks> packs, Of<Tasks> task, Turn turn, InChun
     }
 }
 
-namespace {
-
-/// What cuts have left of the frame's units is enough for the last step and what it brings with it.
-bool may_end(const RunRows& state, Row<Tasks> task) {
-    const uint64_t a_step = quick_units_a_step(state, task);
-    return state.tasks.steps_granted[task] * a_step >= a_step + quick_units_of_end(state, task);
-}
-
-}  // namespace
-
 // Of the steps that are granted one is used up by each that is run, and as many as they are worth by cuts (pay_cuts).
 void end_region_step(Of<Tasks> task, RunRows& rows) {
     const Row<Tasks> t = task.row;
@@ -46,13 +37,9 @@ void end_region_step(Of<Tasks> task, RunRows& rows) {
     ++region.springs.own().steps[region.springs.row];
     hold_region(region);
     push_region(region);
-    rows.tasks.steps_granted[t] -= rows.tasks.steps_granted[t] > 0;
-    const auto time_at = [&](uint32_t steps) { return static_cast<float>(steps) * rows.hidden_runs.time_step[t]; };
-    const uint32_t done = ++rows.tasks.steps_done[t];
-    if (time_at(done) > rows.hidden_runs.end_time[t])
-        rows.tasks.state[t] = static_cast<uint8_t>(TaskState::Whole);
-    else if (time_at(done + 1) > rows.hidden_runs.end_time[t] && !may_end(rows, t))
-        rows.tasks.steps_granted[t] = 0;
+    count_step(rows.tasks, rows.hidden_runs, t, rows.hidden_runs.end_time[t], [&] {
+        return StepUnits{quick_units_a_step(rows, t), quick_units_of_end(rows, t)};
+    });
 }
 
 void split_region(Of<Tasks> task, RunRows& rows) {

@@ -1,13 +1,13 @@
 // Regions of the quick mode wake before the loop; those and hidden ones are closed behind it.
 #include "components/body_id.hpp"
-#include "systems/costs.hpp"
 #include "systems/models/thick_shell/hidden/forget_run.hpp"
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
 #include "systems/models/thick_shell/hidden/run_out.hpp"
 #include "systems/models/thick_shell/quick/region_motion.hpp"
+#include "systems/models/thick_shell/shared/costs.hpp"
 #include "systems/models/thick_shell/shared/cut_out.hpp"
+#include "systems/models/thick_shell/systems.hpp"
 #include "systems/structures/shell/flood_parts.hpp"
-#include "systems/systems.hpp"
 
 namespace cullet {
 namespace {

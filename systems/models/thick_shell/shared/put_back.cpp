@@ -154,7 +154,7 @@ void put_vertices(const PutBack& p) {
 struct Links {
     std::array<uint32_t, 3> corner, neighbour, hinge;
     std::array<uint8_t, 3> edge_kind;
-    friend bool operator==(const Links&, const Links&) = default;
+    friend bool operator==(const Links& a, const Links& b) = default;
 };
 
 Links links_of(const Elements& elements, uint32_t row) {

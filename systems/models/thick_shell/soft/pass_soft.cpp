@@ -6,7 +6,7 @@
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/models/thick_shell/soft/soft_units.hpp"
 #include "systems/models/thick_shell/springs/start_springs.hpp"
-#include "systems/systems.hpp"
+#include "systems/models/thick_shell/systems.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
 
 namespace cullet {
@@ -147,12 +147,12 @@ void return_soft(Serial, const SoftBodies& soft, const SoftStrikers& strikers, R
 
 // Cracks have faces of their own, which need room, and so do splits: what found none is named in each such frame. What
 // broke in this step is drawn already.
-void show_soft(Serial, SoftRows& rows, Events<ShellChanged>& changed, Events<RefusedEvent>& refused) {
+void show_soft(Serial, SoftRows& rows, Events<DrawnChanged>& changed, Events<RefusedEvent>& refused) {
     for (uint32_t s = 0; s < rows.soft_bodies.size(); ++s) {
         if (!rows.soft_bodies.is_used[s] || !rows.soft_bodies.is_awake[s]) continue;
         const Row<Bodies> body = rows.soft_bodies.body[s];
         if (rows.soft_bodies.lacks_room[s]) refused.push(refused_event(rows.bodies, body, kCrackRoom));
-        const auto is_own = [&](const ShellChanged& c) { return c.body == body; };
+        const auto is_own = [&](const DrawnChanged& c) { return c.body == body; };
         if (std::any_of(changed.begin(), changed.end(), is_own)) continue;
         const Row<Structures> structure = rows.bodies.structure[body];
         if (rows.structures.has_cracks[structure] &&

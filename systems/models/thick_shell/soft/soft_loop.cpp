@@ -1,7 +1,7 @@
 #include "systems/models/thick_shell/soft/soft_loop.hpp"
 
 #include "systems/models/thick_shell/soft/soft_body.hpp"
-#include "systems/systems.hpp"
+#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet {
 

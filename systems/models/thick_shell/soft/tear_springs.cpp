@@ -4,7 +4,7 @@
 #include "systems/models/thick_shell/soft/soft_lanes.hpp"
 #include "systems/models/thick_shell/soft/split_plane.hpp"
 #include "systems/models/thick_shell/springs/rebuild_springs.hpp"
-#include "systems/systems.hpp"
+#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet {
 namespace {

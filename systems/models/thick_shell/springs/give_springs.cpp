@@ -72,18 +72,7 @@ void list_edges(const SpringView& view) {
     for (uint32_t e = 0; e < shell.element_count(); ++e)
         for (uint32_t k = 0; k < 3; ++k) {
             if (!owns_edge(shell, e, k)) continue;
-            const auto& corner = state.elements.corner[shell.element(e)];
-            const uint32_t row = view.spring(next), other = state.elements.neighbour[shell.element(e)][k];
-            state.springs.a[row] = corner[k], state.springs.b[row] = corner[(k + 1) % 3];
-            state.springs.element[row] = e;
-            state.springs.can_crack[row] = 1;
-            state.springs.place[row] = {kNone, kNone};
-            state.element_springs.spring[view.edges(e)][k] = next;
-            if (other != kNone)
-                for (uint32_t j = 0; j < 3; ++j)
-                    if (state.elements.neighbour[shell.element(other)][j] == e)
-                        state.element_springs.spring[view.edges(other)][j] = next;
-            ++next;
+            name_spring(view, e, k, state.elements.neighbour[shell.element(e)][k], next++);
         }
     state.shell_springs.springs[view.row].count = next;
     if (view.has_layers()) state.shell_springs.layers[view.row].count = next;

@@ -84,6 +84,21 @@ bool VertexSprings::add(uint32_t s) {
     return true;
 }
 
+void name_spring(const SpringView& view, uint32_t element, uint32_t edge, uint32_t other, uint32_t spring) {
+    ShellRows& state = view.state;
+    const auto& corner = state.elements.corner[view.shell.element(element)];
+    const uint32_t row = view.spring(spring);
+    state.springs.a[row] = corner[edge], state.springs.b[row] = corner[(edge + 1) % 3];
+    state.springs.element[row] = element;
+    state.springs.can_crack[row] = 1;
+    state.springs.place[row] = {kNone, kNone};
+    state.element_springs.spring[view.edges(element)][edge] = spring;
+    if (other == kNone) return;
+    for (uint32_t k = 0; k < 3; ++k)
+        if (state.elements.neighbour[view.shell.element(other)][k] == element)
+            state.element_springs.spring[view.edges(other)][k] = spring;
+}
+
 void collect_springs(const SpringView& view, uint32_t vertex, VertexSprings& list) {
     list.count = 0;
     if (vertex >= view.shell.vertex_count()) return;

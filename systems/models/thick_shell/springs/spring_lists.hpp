@@ -13,6 +13,8 @@ struct VertexSprings {
     bool add(uint32_t s);
 };
 
+/// The spring of an edge of an element: `other` has the edge as well, or kNone.
+void name_spring(const SpringView& view, uint32_t element, uint32_t edge, uint32_t other, uint32_t spring);
 /// Springs of the edges at a vertex, found over neighbour links.
 void collect_springs(const SpringView& view, uint32_t vertex, VertexSprings& list);
 

@@ -115,7 +115,7 @@ bool lay_pack(Slots<Slot> slots, uint32_t pack, uint32_t width) {
 
 template <class Slot, uint32_t most>
 void name_pairs(const ShellView& shell, const PairCell<most>& cell, uint32_t first_vertex,
-                Slots<Slot> (*slots_of)(const ShellView&, uint32_t)) {
+                Slots<Slot> (*slots_of)(const ShellView& view, uint32_t vertex)) {
     uint16_t named[kPairCellVertices] = {};
     for (uint32_t i = 0; i < cell.count; ++i) {
         const uint32_t v = first_vertex + cell.owner[i];
@@ -134,7 +134,7 @@ bool names(const Slots<Slot>& slots, uint32_t lane, uint32_t vertex) {
 
 template <class Slot>
 bool is_others(const ShellView& shell, uint32_t vertex, uint32_t other,
-               Slots<Slot> (*slots_of)(const ShellView&, uint32_t)) {
+               Slots<Slot> (*slots_of)(const ShellView& view, uint32_t vertex)) {
     return are_in_one_pair_cell(vertex, other) && !names(slots_of(shell, vertex / kLanes), vertex % kLanes, other) &&
            names(slots_of(shell, other / kLanes), other % kLanes, vertex);
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "systems/cook/materials.hpp"
-#include "systems/costs.hpp"
+#include "systems/models/thick_shell/shared/costs.hpp"
 #include "systems/models/thick_shell/stiffness/assemble.hpp"
 #include "systems/models/thick_shell/stiffness/element_bending.hpp"
 #include "systems/models/thick_shell/stiffness/element_stress.hpp"

@@ -1,6 +1,6 @@
 // Cracks start, run, join and finish under stresses set by hand.
 #include "systems/models/thick_shell/hidden/grow_cracks.hpp"
-#include "systems/costs.hpp"
+#include "systems/structures/shell/costs.hpp"
 
 #include <gtest/gtest.h>
 

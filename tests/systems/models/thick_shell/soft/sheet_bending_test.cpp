@@ -7,7 +7,7 @@
 #include "sample_game/spring_truth.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/models/thick_shell/springs/start_springs.hpp"
-#include "systems/systems.hpp"
+#include "systems/models/thick_shell/systems.hpp"
 #include "tests/systems/models/thick_shell/soft/soft_world.hpp"
 
 namespace cullet {

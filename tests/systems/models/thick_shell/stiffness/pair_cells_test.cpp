@@ -17,7 +17,7 @@
 #include "systems/models/thick_shell/hidden/grow_cracks.hpp"
 #include "systems/models/thick_shell/hidden/integrate_packs.hpp"
 #include "systems/models/thick_shell/stiffness/assemble.hpp"
-#include "systems/systems.hpp"
+#include "systems/models/thick_shell/systems.hpp"
 #include "tests/support/crack_meshes.hpp"
 #include "tests/support/shell_meshes.hpp"
 

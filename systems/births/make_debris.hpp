@@ -4,13 +4,13 @@
 
 namespace cullet {
 
-struct NewCrumb {
+struct NewDebris {
     Row<Bodies> parent;    // that it came off, or that it was
     Vec3 place, velocity;  // world
     double mass, volume;   // kg, m3
 };
 /// Its row, and the game is told; kNone: `limits.debris` has no room.
-uint32_t make_crumb(Crumbs crumbs, const Bodies& bodies, const RigidWorld& rigid, const NewCrumb& crumb, uint64_t frame,
-                    Events<DebrisEvent>& told);
+uint32_t make_debris(DebrisTables tables, const Bodies& bodies, const RigidWorld& rigid, const NewDebris& piece,
+                     uint64_t frame, Events<DebrisEvent>& told);
 
 }  // namespace cullet

@@ -1,5 +1,5 @@
-// What each system costs a row, in units of 2 ns of one thread. Constants measured by perf/, never adapted while
-// running, so that the same hit takes the same frames on every machine.
+// What each system of thick shells costs a row, in units of 2 ns of one thread. Constants measured by perf/, never
+// adapted while running, so that the same hit takes the same frames on every machine.
 #pragma once
 #include <cstdint>
 
@@ -9,15 +9,10 @@ inline constexpr uint64_t kUnitsHiddenStep = 5;     // a vertex through one hidd
 inline constexpr uint64_t kUnitsStressCheck = 5;    // a vertex through one stress check, both faces
 inline constexpr uint64_t kUnitsEnergyCheck = 5;    // a vertex
 inline constexpr uint64_t kUnitsContactVertex = 6;  // a patch vertex through one hidden step
-inline constexpr uint64_t kUnitsCut = 15000;  // a cut edge: inserts, splits, about 12 rows; 20 microseconds, 50 at most
-// A vertex of a body whose pieces are born: rows, hulls, drawn meshes, and where one worker has it the waiting of the
-// other. 3.1 microseconds over all breaks of scene demolition, 7 where 150 pieces leave a house at once.
-inline constexpr uint64_t kUnitsBirth = 2500;
-inline constexpr uint64_t kUnitsCutElement = 200;  // an element that a cut of the game looks at, a segment of its line
-inline constexpr uint64_t kUnitsOpen = 220;        // a vertex when a task opens: copy, patches
-inline constexpr uint64_t kUnitsAssemble = 550;    // a vertex of a shell whose stiffness is not assembled yet
-inline constexpr uint64_t kUnitsGrainRow = 3000;   // a row of a material with a grain, rebuilt after a cut
-inline constexpr uint64_t kUnitsCompact = 1600;    // a live element of a shell that is compacted: 1.2 us, others wait
+inline constexpr uint64_t kUnitsAssemble = 550;     // a vertex of a shell whose stiffness is not assembled yet
+inline constexpr uint64_t kUnitsGrainRow = 3000;    // a row of a material with a grain, rebuilt after a cut
+inline constexpr uint32_t kStepsAStressCheck = 3;
+inline constexpr uint32_t kStepsAnEnergyCheck = 64;
 
 // Of the quick mode, measured at scene castle.
 inline constexpr uint64_t kUnitsQuickOpen = 230;     // a vertex of a cut-out when a task opens: flood, copy
@@ -36,8 +31,5 @@ inline constexpr uint64_t kUnitsQuickEnd = 400;  // a vertex of the copy when cr
 inline constexpr uint64_t kUnitsSoftTenSprings = 20;  // ten springs of one layer through a substep
 inline constexpr uint64_t kUnitsSoftTenPairs = 45;    // ten edges of two layers
 inline constexpr uint64_t kUnitsSoftFrame = 150;      // a vertex: whom it may meet, its shape at the end
-
-inline constexpr uint32_t kStepsAStressCheck = 3;
-inline constexpr uint32_t kStepsAnEnergyCheck = 64;
 
 }  // namespace cullet
