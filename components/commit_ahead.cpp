@@ -8,9 +8,9 @@ constexpr uint32_t kSpringsAVertex = 14;  // of metal: both ends of six edges an
 
 constexpr uint32_t kMostShellsAhead = 8;  // that commit_ahead has room for
 
-// `shell` is what a hit takes, a copy of all rows and what cracks add (working_room); what moves of the broken shell is
-// less than it: two a hit. A drawn mesh has 6 corners an element and 6 a free edge, and the pieces' more than the
-// body's. Where many bodies stand an explosion breaks some of them in one frame.
+// `shell` is what a hit takes: a copy of all rows, and what cracks add (working_room). What moves of the broken shell
+// is less than it. So it is two a hit. A drawn mesh has 6 corners an element and 6 a free edge, and the pieces' more
+// than the body's. Where many bodies stand an explosion breaks some of them in one frame.
 void commit_ahead(WorldRows& rows, const ShellRoom& shell, uint64_t bytes) {
     const auto commit = [&](AnyTable& table, const RangePool& pool, uint64_t count) {
         const auto end = static_cast<uint32_t>(std::min<uint64_t>(pool.end() + count, table.limit()));

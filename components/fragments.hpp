@@ -38,7 +38,7 @@ struct Fragments : Table<Fragments> {
     Own<Row<Bodies>> child{*this, "child"};     // a new body, or none
     Own<uint8_t> is_debris{*this, "is_debris"};
     Own<double> volume{*this, "volume", "m3"};  // of debris, once births are filled
-    Own<uint32_t> debris{*this, "debris"};      // its row once it is made, or kNone
+    Own<uint32_t> debris{*this, "debris"};      // row of Debris once it is made, or kNone
     // How it moves. Mass, centre and inertia are those that its momenta were summed with: with them these are the
     // hidden state's, and the energy can only fall. What holds a pin stands still.
     Own<double> moving_mass{*this, "moving_mass", "kg"};

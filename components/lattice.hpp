@@ -1,6 +1,6 @@
-// Runs of the model that breaks solids. A run is given by its blow, its structure and how many steps are done: what it
-// works on (BreakRun) stands in rooms of a fixed size beside the tables, in no file and no hash, and is made again by
-// the same steps where it is missing.
+// Runs of the model that breaks solids. A run is given by its blow, its structure and how many steps are done. What it
+// works on (BreakRun) stands in rooms of a fixed size beside the tables, in no file and no hash. Where it is missing it
+// is made again by the same steps.
 #pragma once
 #include "components/bodies.hpp"
 #include "components/solid_rows.hpp"

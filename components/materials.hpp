@@ -1,4 +1,4 @@
-// What bodies are made of. Values and ranges: thick shell note, section 8.
+// What bodies are made of. Values: docs/materials.md. Ranges: cullet/material.hpp.
 #pragma once
 #include "engine/table.hpp"
 
@@ -19,7 +19,7 @@ struct Materials : Table<Materials> {
     Column<float> crush_strength{*this, "crush_strength", "Pa"};      // H: pressure under which the struck face crushes
     Column<float> restitution{*this, "restitution"};
     Column<float> friction{*this, "friction"};
-    Column<float> heading_power{*this, "heading_power"};   // q of C1: how straight cracks run; 6, glass 30
+    Column<float> heading_power{*this, "heading_power"};   // q: how straight cracks run; 6, glass 30
     Column<float> tip_factor{*this, "tip_factor"};         // on Griffith's limit at mesh resolution, 0.6
     Column<float> run_seconds{*this, "run_seconds", "s"};  // least elastic time of a hidden run: 1 ms, brick walls 3 ms
 };

@@ -1,6 +1,5 @@
-// What metal shells have beside the rows of a shell: sub-shells, which carry creases and folds, and springs on all
-// edges and between sheets, which limit how far it stretches (metal shell note, section 2). A world without metal has
-// no rows here.
+// What metal shells have beside the rows of a shell. Sub-shells carry creases and folds. Springs on all edges and
+// between sheets limit how far it stretches. A world without metal has no rows here.
 //
 // Vertices and elements of the shell stand row for row in ranges of MetalVertices and MetalElements. Indices are
 // relative to the shell, as in its own tables.
@@ -16,8 +15,8 @@ struct Bodies;
 inline constexpr uint32_t kMostSubShells = 512;
 inline constexpr uint32_t kBlended = 8;  // sub-shells that a vertex is moved by
 
-/// Choices of an impact that the published method makes otherwise than ours (metal shell note, section 8), as bits of
-/// MetalShells::published. A bit that is set takes the published one.
+/// Choices of an impact that the published method makes otherwise than ours, as bits of MetalShells::published. A bit
+/// that is set takes the published one.
 enum PublishedChoice : uint8_t {
     kPublishedContact = 1,   // springs that push harder on the way in; not one impulse
     kPublishedDepth = 2,     // of each sub-shell by the impulse over its mass, turned by its moment
@@ -47,8 +46,8 @@ struct MetalShells : RangeTable<MetalShells> {
     Column<float> tear_strain{*this, "tear_strain"};              // 0: by the material's
 };
 
-/// Row s says which row of MetalShells the shell in row s of Shells has: that number + 1, and 0 of one that is not of
-/// metal. There are no rows while nothing is.
+/// Row s says which row of MetalShells the shell in row s of Shells has. It holds that number + 1, and 0 of one that is
+/// not of metal. There are no rows while nothing is.
 struct MetalOwners : Table<MetalOwners> {
     using Table::Table;
     CULLET_TABLE(metal_owners);
@@ -158,7 +157,7 @@ struct MetalRuns : Table<MetalRuns> {
     Column<std::array<float, 4>> extent{*this, "extent", "m"};  // and how far the striker reaches
 };
 
-/// Row b is the last impact on body b. What strikes at the same place again before it is over is more of it: a dent
+/// Row b is the last impact on body b. What strikes at the same place again before it is over is more of it. A dent
 /// hangs on the whole energy, not on the steps that it comes in. There are no rows while nothing was struck.
 struct MetalImpacts : Table<MetalImpacts> {
     using Table::Table;
@@ -187,8 +186,8 @@ struct MetalPresses : Table<MetalPresses> {
 
 inline constexpr uint32_t kFrontRows = 64;
 
-/// Rows [64 t, + 64) are the front of what strikes in task t: how far it has come along the push at each place of a
-/// grid across it, from the point of touch; kNoFront where there is nothing of it.
+/// Rows [64 t, + 64) are the front of what strikes in task t. They say how far it has come along the push at each place
+/// of a grid across it, from the point of touch. They are kNoFront where there is nothing of it.
 struct StrikerFronts : Table<StrikerFronts> {
     using Table::Table;
     CULLET_TABLE(striker_fronts);

@@ -1,5 +1,5 @@
-// The quick mode (thick shell note C3 to C5, B7): how bodies break that do not wait for a hidden run. All of it is
-// empty until the first such body comes.
+// The quick mode: how bodies break that do not wait for a hidden run. All of it is empty until the first such body
+// comes.
 #pragma once
 #include "components/springs.hpp"
 #include "components/tasks.hpp"
@@ -20,7 +20,7 @@ struct QuickRules : Table<Own> {
     Column<float> bump_angle{*this, "bump_angle", "rad"};
     Column<uint8_t> layout{*this, "layout"};              // LayerLayout of two layers
     Column<float> length_factor{*this, "length_factor"};  // gamma; 0: mean edge over thickness
-    Column<float> area_energy{*this, "area_energy"};      // over E h A (B4)
+    Column<float> area_energy{*this, "area_energy"};      // over E h A
     Column<float> volume_energy{*this, "volume_energy"};
 };
 
@@ -31,15 +31,15 @@ struct QuickBodies : QuickRules<QuickBodies> {
 };
 
 /// Row t is the run of task t, by the rules that its body had when it opened. All motion is seen from the body as it
-/// moved at the touch: a vertex at rest in it has velocity 0 until the run ends.
+/// moved at the touch. So a vertex at rest in it has velocity 0 until the run ends.
 struct QuickRuns : QuickRules<QuickRuns> {
     using QuickRules::QuickRules;
     CULLET_TABLE(quick_runs);
     // Of the run.
-    Column<Row<ShellSprings>> springs{*this, "springs"};  // of the task's shell; kNone before the region is awake
-    Column<uint32_t> awake_count{*this, "awake_count"};   // vertices that the region had when it woke
-    Column<float> softening{*this, "softening"};          // s of B7, >= 1: stiffness E / s, time stretched by its root
-    Column<float> split_strain{*this, "split_strain"};    // of a vertex of median strength, as the run sees it
+    Column<Row<ShellSprings>> springs{*this, "springs"};      // of the task's shell; kNone before the region is awake
+    Column<uint32_t> awake_count{*this, "awake_count"};       // vertices that the region had when it woke
+    Column<float> softening{*this, "softening"};              // s >= 1: stiffness E / s, time stretched by its root
+    Column<float> split_strain{*this, "split_strain"};        // of a vertex of median strength, as the run sees it
     Column<double> energy_scale{*this, "energy_scale", "J"};  // that body and strikers meet with: what 5 % are of
     Column<float> diagonal{*this, "diagonal", "m"};           // of the body's bounds
 };

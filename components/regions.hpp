@@ -6,7 +6,7 @@
 namespace cullet {
 
 /// Row t is the body of task t without what its cut-out moves by itself. It is one rigid body that holds the cut-out's
-/// border (thick shell note, 6.2). Body axes.
+/// border. Body axes.
 struct RegionRests : Table<RegionRests> {
     using Table::Table;
     CULLET_TABLE(region_rests);

@@ -88,8 +88,8 @@ struct ShellRows : PartRows, TablesOfShells {
     using Below = PartRows;
     using Own = TablesOfShells;
 
-    /// Calls f(range, table, room, limit) for each table of which a shell has a range: the member of ShellRoom that
-    /// says how many rows it wants, and the limit that is named when there are none.
+    /// Calls f(range, table, room, limit) for each table of which a shell has a range. `room` is the member of
+    /// ShellRoom that says how many rows it wants. `limit` is named when there are none.
     template <class Rows, class F>
     static void for_each_range(Rows& rows, Row<Structures> structure, F&& f) {
         auto& s = rows.shells;
@@ -151,8 +151,8 @@ void copy_values(ShellRows& to, const ShellRows& from, Row<Structures> source, R
 void copy_shell_rows(ShellRows& to, const ShellRows& from, Row<Structures> source, Row<Structures> copy,
                      bool with_stiffness);
 
-/// One structure that is a shell, in a set or a list of tables, with its row among shells looked up: what the functions
-/// that edit or look at a shell pass around. Indices are relative to the shell, as in the columns.
+/// One structure that is a shell, in a set or a list of tables, with its row among shells looked up. The functions that
+/// edit or look at a shell pass it around. Indices are relative to the shell, as in the columns.
 template <class Rows>
 struct ShellIn {
     Rows state;

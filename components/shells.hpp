@@ -37,7 +37,7 @@ struct Shells : RangeTable<Shells> {
     Own<float> mean_edge{*this, "mean_edge", "m"};  // l, of the intact model; fragments inherit it
     Own<float> time_step{*this, "time_step", "s"};  // of the hidden run: 0.6 * 2 / omega_max; fragments inherit it
     Own<float> triangle_limit{*this, "triangle_limit",
-                              "1/s2"};  // B7: bounds of stiffness/mass ratios, from the intact model
+                              "1/s2"};  // bounds of stiffness/mass ratios, from the intact model
     Own<float> hinge_limit{*this, "hinge_limit", "1/s2"};
     Own<float> vertex_limit{*this, "vertex_limit", "1/s2"};
     Own<uint32_t> dead_elements{*this, "dead_elements"};  // of pieces that moved, until the shell is compacted
@@ -73,13 +73,13 @@ struct Vertices : RangeTable<Vertices, kVerticesPerCell> {
     Column<Vec3> heading{*this, "heading"};              // of a tip: the direction chosen at its last advance, unit
     Column<float> ready_time{*this, "ready_time", "s"};  // a tip may advance from this time of the run on
     Column<uint32_t> crack_start{*this, "crack_start"};  // vertex where the tip's crack started (its own root)
-    Column<uint8_t> is_start_banned{*this, "is_start_banned"};  // within 3 l of a cut of this run (C2)
+    Column<uint8_t> is_start_banned{*this, "is_start_banned"};  // within 3 l of a cut of this run
     // Hidden run: displacements about the rest shape, body axes. Zero while no task runs.
     Column<Vec3> displacement{*this, "displacement", "m"};    // u
     Column<Vec3> velocity{*this, "velocity", "m/s"};          // v
     Column<Float4, Buffers::Two> probe{*this, "probe", "m"};  // u + beta v, where forces are evaluated; .w is 0
     Column<float> crush{*this, "crush", "m"};  // how deep a striker has crushed the face in this run, along its blow
-    Column<float> stiffness_scale{*this, "stiffness_scale"};   // B7's limit at this vertex, in (0, 1]
+    Column<float> stiffness_scale{*this, "stiffness_scale"};   // share that the time step bears here, in (0, 1]
     Column<uint32_t> copy{*this, "copy", "1", Keep::Scratch};  // make_piece: row in the piece being made
 };
 
@@ -127,9 +127,9 @@ struct Elements : RangeTable<Elements, 16> {
     Column<uint8_t> over_limit{*this, "over_limit", "1", Keep::Scratch};
 };
 
-/// One row is the three coupled springs of the element in the same row of Elements (B3). They give constant strain from
-/// the edge elongations, and plane stress with the true E and nu. With d1 = u_b - u_a, d2 = u_c - u_a and
-/// (i0, i1, i2) = inverse_edges: du/dx = i0 d1, du/dy = i1 d1 + i2 d2; xx = x.du/dx, yy = y.du/dy, xy = x.du/dy +
+/// One row is the three coupled springs of the element in the same row of Elements. They give constant strain from the
+/// edge elongations, and plane stress with the true E and nu. With d1 = u_b - u_a, d2 = u_c - u_a and (i0, i1, i2) =
+/// inverse_edges: du/dx = i0 d1, du/dy = i1 d1 + i2 d2. The strain is xx = x.du/dx, yy = y.du/dy, xy = x.du/dy +
 /// y.du/dx.
 struct TriangleSprings : Table<TriangleSprings> {
     using Table::Table;
@@ -139,13 +139,13 @@ struct TriangleSprings : Table<TriangleSprings> {
     Column<Vec3> inverse_edges{*this, "inverse_edges", "1/m"};  // i0, i1, i2
     Column<float> area{*this, "area", "m2"};
     Column<float> thickness{*this, "thickness", "m"};  // mean depth of the corners, at least 0.05 of the wanted depth
-    Column<float> scale{*this, "scale"};               // B7's limit, in (0, 1]; also scales the stress
+    Column<float> scale{*this, "scale"};  // share of the stiffness that the time step bears, (0, 1]; of the stress, too
     /// Of edge k: 1 / |gradient of the shape function of the corner opposite|. A radian of the hinge across edge k
-    /// gives the curvature altitude * gradient gradient^T, which is B3's length / (2 area) * p p^T.
+    /// gives the curvature altitude * gradient gradient^T, which is length / (2 area) * p p^T.
     Column<Vec3> altitude{*this, "altitude", "m"};
 };
 
-/// One row is one interior edge that resists bending: theta = sum of gradient . u over its four vertices (B3).
+/// One row is one interior edge that resists bending: theta = sum of gradient . u over its four vertices.
 struct Hinges : RangeTable<Hinges, 16> {
     using RangeTable::RangeTable;
     CULLET_TABLE(hinges);
@@ -153,10 +153,10 @@ struct Hinges : RangeTable<Hinges, 16> {
                                            "vertex"};  // 0, 1: the edge; 2, 3: the corners opposite; [0] == kNone: dead
     Column<std::array<float, 12>> gradient{*this, "gradient", "1/m"};
     Column<float> stiffness{*this, "stiffness", "J"};  // D L^2 / (A1 + A2), unscaled
-    Column<float> scale{*this, "scale"};               // B7's limit, in (0, 1]
+    Column<float> scale{*this, "scale"};               // share of the stiffness that the time step bears, in (0, 1]
 };
 
-/// One row is 8 vertices' share of the stiffness: f_i = sum_j K_ij (w_j - w_i), difference form (section 10).
+/// One row is 8 vertices' share of the stiffness: f_i = sum_j K_ij (w_j - w_i), difference form.
 struct StiffnessPacks : RangeTable<StiffnessPacks, 8> {
     using RangeTable::RangeTable;
     CULLET_TABLE(stiffness_packs);

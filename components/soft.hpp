@@ -1,5 +1,5 @@
 // Bodies of ductile and elastic materials. They are rigid in the rigid world until something hits them hard enough.
-// Then their springs are run each frame, and their mesh is shown as it moves (thick shell note 6.8).
+// Then their springs are run each frame, and their mesh is shown as it moves.
 //
 // While a body is awake Vertices.probe and Twins.position hold its points, in the working frame of its springs. After
 // each frame Vertices.rest is the shape that they have, in the body frame. So drawing, queries, hulls and births see a
@@ -27,7 +27,7 @@ struct SoftBodies : Table<SoftBodies> {
     Column<float> wake_speed{*this, "wake_speed", "m/s"};  // of a contact
     Column<uint32_t> substeps{*this, "substeps"};          // of a frame, 8 to 1,000
     Column<uint32_t> slow_frames{*this, "slow_frames"};    // that had units for fewer: it ran slower than the world
-    Column<float> softening{*this, "softening"};           // s = E / E_eff, at least 1 (B7)
+    Column<float> softening{*this, "softening"};           // s = E / E_eff, at least 1
     Column<float> yield_strain{*this, "yield_strain"};     // shown: of the softened springs; 0: never flows
     Column<float> break_strain{*this, "break_strain"};     // shown
     Column<float> drag_time{*this, "drag_time", "s"};      // in which motion about the rigid one falls to 1/e

@@ -1,5 +1,5 @@
-// Edge springs of a shell (thick shell note B2, B3, B5): what ductile shells, the quick mode and sheet metal move by. A
-// shell without them has no row here. A world without them hashes as if these tables were not there.
+// Edge springs of a shell: what ductile shells, the quick mode and sheet metal move by. A shell without them has no row
+// here. A world without them hashes as if these tables were not there.
 //
 // Indices inside a shell's springs (ends, owners, neighbours, slots) are relative to the first row of their range, as
 // in the tables of shells. In motion, Vertices.probe holds the place of the outer points. It is two-sided; .w is the
@@ -14,7 +14,7 @@ namespace cullet {
 
 enum class SpringLayout : uint8_t {
     OneLayer = 0,
-    Sandwich = 1,  // two layers; mid springs and shear pairs bend and stretch them as the thickness says (B5)
+    Sandwich = 1,  // two layers; mid springs and shear pairs bend and stretch them as the thickness says
     Crossed = 2,   // two layers as in the paper: cross springs
 };
 
@@ -42,7 +42,7 @@ struct ShellSprings : RangeTable<ShellSprings> {
     Column<float> damping_ratio{*this, "damping_ratio"};        // zeta
     Column<float> length_factor{*this, "length_factor"};        // gamma: depth in motion over the true one
     Column<float> area_energy{*this, "area_energy"};            // kappa_A of an element over E h A
-    Column<float> volume_energy{*this, "volume_energy"};        // kappa_V of an element over E h A, before B4's bound
+    Column<float> volume_energy{*this, "volume_energy"};        // kappa_V of an element over E h A, before its bound
     Column<uint8_t> keeps_lengths{*this,
                                   "keeps_lengths"};  // bits of edge_stiffness.hpp; 1: rest is the shape now, 2: slender
     Column<float> time_step{*this, "time_step", "s"};
@@ -63,7 +63,7 @@ struct Springs : RangeTable<Springs, 16> {
     Column<float> plastic_length{*this, "plastic_length", "m"};  // where the force is 0; L0 until it flows
     Column<float> stiffness{*this, "stiffness", "N/m"};          // >= 0
     Column<float> damping{*this, "damping", "N s/m"};            // c = 2 zeta sqrt(k mu)
-    Column<uint8_t> can_crack{*this, "can_crack"};               // C4: coarse fracture clears it near a crack
+    Column<uint8_t> can_crack{*this, "can_crack"};               // coarse fracture clears it near a crack
     Column<std::array<uint32_t, 2>> place{*this, "place"};       // 8 * slot + lane in the lists of a and of b
     Column<float> length{*this, "length", "m", Keep::Scratch};   // rebuild_springs: what the slots remember
 };
@@ -139,7 +139,7 @@ struct Twins : RangeTable<Twins, kVerticesPerCell> {
     CULLET_TABLE(twins);
     Column<Float4, Buffers::Two> position{*this, "position", "m"};  // working frame; .w as Vertices.probe
     Column<Vec3> velocity{*this, "velocity", "m/s"};
-    Column<float> mass_share{*this, "mass_share", "kg"};  // of each of the two points: a sixth of each element (B1)
+    Column<float> mass_share{*this, "mass_share", "kg"};         // of each of the two points: a sixth of each element
     Column<float> inverse_mass{*this, "inverse_mass", "1/kg"};   // of each; 0 pinned or dead
     Column<float> inverse_rest{*this, "inverse_rest", "1/m"};    // 1 / (gamma depth); 0 without depth
     Column<float> stiffness_rest{*this, "stiffness_rest", "N"};  // k times gamma depth

@@ -34,7 +34,8 @@ struct TablesOfFragments {
 };
 
 /// Whoever holds it reaches everything. So systems and their helpers take only the tables that they need, or one of the
-/// sets of tables that it stands on: WorldRows, SoftRows, BodyRows, RunRows, ShellRows, StructureRows, MaterialRows.
+/// sets of tables that it stands on. These are WorldRows, SoftRows, BodyRows, RunRows, ShellRows, StructureRows,
+/// MaterialRows.
 struct State : TablesOfMaterials, WorldRows, TablesOfDebris, TablesOfBlows, TablesOfFragments {
     explicit State(const Limits& limits = {});
 

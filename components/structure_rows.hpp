@@ -1,4 +1,4 @@
-// What bodies are made of, as far as all kinds of structures are alike: what edits, copies and measures structures of
+// What bodies are made of, as far as all kinds of structures are alike. What edits, copies and measures structures of
 // any kind takes these tables.
 #pragma once
 #include "components/limits.hpp"

@@ -53,8 +53,8 @@ struct Structures : RangeTable<Structures> {
 /// Of Cells::is_changed: cracks passed, or elements of pieces were in it.
 inline constexpr uint8_t kCracked = 1, kLeft = 2;
 
-/// One row is a patch of neighbouring vertices: chunk of a job, bounds, a few convex pieces of the collision
-/// shape (none where one hull or box stands for the structure).
+/// One row is a patch of neighbouring vertices, or a convex cell of a solid. It is the chunk of a job, and has bounds.
+/// It has a few convex pieces of the collision shape, but none where one hull or box stands for the structure.
 struct Cells : RangeTable<Cells> {
     using RangeTable::RangeTable;
     CULLET_TABLE(cells);

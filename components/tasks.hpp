@@ -1,5 +1,5 @@
 // Damage tasks: impact in, fragments out. A task works on a structure of its own, a copy of the body's with room to
-// grow; the body itself does not change until the task ends.
+// grow. The body itself does not change until the task ends.
 #pragma once
 #include "components/shells.hpp"
 #include "engine/system.hpp"
@@ -56,7 +56,7 @@ struct HiddenRuns : Table<HiddenRuns> {
     CULLET_TABLE(hidden_runs);
     Column<float> time_step{*this, "time_step", "s"};
     Column<float> damping_time{*this, "damping_time", "s"};        // beta = 0.15 dt
-    Column<float> end_time{*this, "end_time", "s"};                // T of section 6.4
+    Column<float> end_time{*this, "end_time", "s"};                // T
     Column<float> quiet_time{*this, "quiet_time", "s"};            // 0.4 T
     Column<float> last_event_time{*this, "last_event_time", "s"};  // of the last crack or touch
     Column<double> start_energy{*this, "start_energy", "J"};       // body's and strikers' kinetic energy at the touch
@@ -69,15 +69,15 @@ struct HiddenRuns : Table<HiddenRuns> {
 
 inline constexpr uint32_t kMostMarkedPacks = 4096;  // of one run: 32,768 vertices
 
-/// Rows [t kMostMarkedPacks, + pack_count) are packs of 8 vertices of the working copy of task t, rising: of a quick
-/// run its region, of a hidden one on a cut-out the vertices by its border. Bit k is vertex k.
+/// Rows [t kMostMarkedPacks, + pack_count) are packs of 8 vertices of the working copy of task t, rising. Of a quick
+/// run they are its region, of a hidden one on a cut-out the vertices by its border. Bit k is vertex k.
 struct MarkedPacks : Table<MarkedPacks> {
     using Table::Table;
     CULLET_TABLE(marked_packs);
     Column<uint32_t> pack{*this, "pack"};
     Column<uint8_t> awake{*this, "awake"};  // moves; by a border: and is not cut
     /// Stays where it is, or by a border where the rest of the body has it. Of a region: its velocity is the impulse
-    /// that springs gave it, over its mass, which the piece that it belongs to gets in the end.
+    /// that springs gave it, over its mass. The piece that it belongs to gets that in the end.
     Column<uint8_t> held{*this, "held"};
 };
 template <>
@@ -105,8 +105,7 @@ inline constexpr uint32_t kMostContacts = 8;  // patches a task
 inline constexpr uint32_t kMostPatchVertices =
     512;  // of all patches of a task; a wide patch keeps its heaviest weights
 
-/// One row is one contact patch of a task (section 6.3). It has springs of its own on each of its vertices, against one
-/// striker.
+/// One row is one contact patch of a task. It has springs of its own on each of its vertices, against one striker.
 struct TaskContacts : Table<TaskContacts> {
     using Table::Table;
     CULLET_TABLE(task_contacts);

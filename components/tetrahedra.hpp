@@ -1,5 +1,4 @@
-// What solids have beside the rows of a structure (solid cooking note, sections 1 to 5 and 7). A world without solids
-// has no rows here.
+// What solids have beside the rows of a structure. A world without solids has no rows here.
 //
 // What was cooked does not change and is shared: a body's pieces, and theirs, name the same row of CookedSolids. A
 // piece is a list of its cells, of lattice points that its crack faces moved, and a skin. Indices are relative to the

@@ -42,8 +42,8 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<F
 /// Shares the frame's units: one step to each open task, then equal rounds, in order of (frame of impact, body row).
 /// Soft bodies that are awake come first, with up to half of the units: they run on the world's clock.
 void grant_units(Serial, WorldRows& rows, DamageLedger ledger);
-/// Runs the inner loops on all workers (engine/runs.hpp): of open tasks for the steps that they were granted, and of
-/// awake soft bodies through the frame.
+/// Runs the inner loops on all workers (engine/runs.hpp). Open tasks run the steps that they were granted, awake soft
+/// bodies the whole frame.
 void advance_runs(Serial, WorldRows& rows, const Blows& blows, const DamageModels& models, RunLoops& loops,
                   DamageCounts& counts);
 /// Holds bodies whose task goes on. Releases those whose time is up or whose task ended. Names runs whose cracks had no
@@ -80,9 +80,9 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, WorldRows& rows, QueuedHi
 /// Each of those becomes debris with its mass and its motion. Without room it stays as it is, and asks again.
 void grind_crushed(Serial, Step step, const Events<Crushed>& crushed, WorldRows& rows, WaitingHits waiting,
                    DebrisTables debris_tables, const DamageModels& models, RigidWorld& rigid, ToldOfGrinding told);
-/// What two that yield to nothing leave too little room, and what can give way no further, is held between them, in
-/// both alike, and goes free where it is. As long as the one on the other side can give way it goes as the first does.
-/// What moves by its springs is woken.
+/// Two that yield to nothing may leave a body too little room. If it can give way no further it is held between them,
+/// in both alike, and goes free where it is. As long as the one on the other side can give way it goes as the first
+/// does. What moves by its springs is woken.
 void hold_squeezed(Serial, Step step, RigidWorld& rigid, WorldRows& rows, DamageLedger ledger, Arena& arena,
                    Events<SqueezedEvent>& told);
 /// Debris flies on parabolas, bounces off the ground and off bodies larger than itself, slides and comes to rest. A

@@ -23,7 +23,8 @@ struct ImpactEvent {
     double energy = 0;         // J, of the approach
     bool is_held = false;      // body and striker stand still until the damage is decided
     // N. Above 0, this is no blow but a weight or a press that squeezes the body for longer than it bears. The speed
-    // and the energy are those of the blow that is run in its place, or 0 where the body snaps at once or is ground.
+    // and the energy are those of the blow that is run in its place. They are 0 where the body snaps at once or is
+    // ground.
     float load = 0;
 };
 
@@ -55,9 +56,9 @@ struct RefusedEvent {
     BodyId body;
     uint64_t body_user_data = 0;
     Vec3 place;  // world, its centre of mass, m
-    /// The name in Settings to raise, for example "limits.bodies". Or "longest_edge" of CookSettings, to be shortened:
-    /// cracks have filled the room that the body's mesh gives them, and no more of it splits in this hit. Or, where a
-    /// cut of all bodies went through one that cannot be cut, why not and which one can.
+    /// The name in Settings to raise, for example "limits.bodies". Or "longest_edge" of CookSettings, to be shortened.
+    /// Then cracks have filled the room that the body's mesh gives them, and no more of it splits in this hit. Or,
+    /// where a cut of all bodies went through one that cannot be cut, why not and which one can.
     const char* setting = "";
 };
 
@@ -75,9 +76,9 @@ struct AsleepEvent {
     Vec3 place;  // world, its centre of mass, m
 };
 
-/// Two that yield to nothing leave a body less room than it takes, and it can give way no further: no game of forces
-/// has an answer. It is held between them, in both of them alike, and goes free where it is once they leave it its
-/// room. Told once each time.
+/// Two that yield to nothing leave a body less room than it takes, and it can give way no further. No game of forces
+/// has an answer to that. It is held between them, in both of them alike, and goes free where it is once they leave it
+/// its room. Told once each time.
 struct SqueezedEvent {
     BodyId body, by;  // by: the one of the two that moves
     uint64_t body_user_data = 0, by_user_data = 0;

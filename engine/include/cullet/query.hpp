@@ -3,8 +3,8 @@
 // the last step and the calls since.
 //
 // Threads: any number of threads may ask one world at once, between steps and while no other call changes it. Nothing
-// is allocated, locked or cached. Times among 200 vases of 5,000 triangles, in microseconds: a ray 17, a ball of
-// 0.3 m 30, a box of that size 7, the nearest surface 240.
+// is allocated, locked or cached. Times were taken among 200 vases of 5,000 triangles. In microseconds they are: a ray
+// 17, a ball of 0.3 m 30, a box of that size 7, the nearest surface 240.
 #pragma once
 #include <cstdint>
 

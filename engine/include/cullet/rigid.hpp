@@ -1,10 +1,10 @@
 // The rigid bodies behind a world are Bullet's (World::create) or a host's own (World::create_hosted). A host talks
-// with the world in the plain rows below. It links cullet::core, in which there is no Bullet. A host's step is
+// with the world in the plain rows below. It links cullet::core, in which there is no Bullet. A host's step:
 //
-//     find the contacts of this step, at the poses that bodies have now, before gravity is added to velocities
-//     world.step({bodies, contacts});
-//     apply world.host_changes(), in the order of its lists
-//     add gravity, solve the contacts that are left, move what is not held
+// 1. Find the contacts of this step, at the poses that bodies have now, before gravity is added to velocities.
+// 2. Call world.step({bodies, contacts}).
+// 3. Apply world.host_changes(), in the order of its lists.
+// 4. Add gravity, solve the contacts that are left, move what is not held.
 //
 // Who owns what: the host owns poses, velocities, sleep and contacts; the world owns what breakable bodies are made of.
 // Rows that go in are read during the call; what comes out is the world's own memory. The host's floors, balls and
@@ -12,9 +12,9 @@
 // add_kinematic_box, so that contacts can name them by a BodyId. The host has them already, so they do not come back as
 // births.
 //
-// What a minimal host may leave out: cells, sleep, margins, friction, `woken`, and `apart` after its first step
-// (the world itself passes over contacts between pairs that are apart). What it may not: held bodies must stand still,
-// and contacts named in `apart` must not be solved in this step, or a blow is passed twice.
+// What a minimal host may leave out: cells, sleep, margins, friction, `woken`, and `apart` after its first step. The
+// world itself passes over contacts between pairs that are apart. What it may not: held bodies must stand still.
+// Contacts named in `apart` must not be solved in this step, or a blow is passed twice.
 #pragma once
 #include <cstdint>
 

@@ -28,7 +28,7 @@ struct Settings {
     Vec3 gravity{0, -9.81f, 0};         // m/s2, at most 10000 a component
     float step_seconds = 1.0f / 60.0f;  // fixed step, s; 1/1000 to 1/20
     uint32_t threads = 1;  // of cullet's own, the caller counted; unused when the host gives jobs; 1 to 256
-    /// Damage work and soft bodies a frame, in units of 2 ns of one thread: 8 million are 8 ms of a frame on two cores.
+    /// Damage work and soft bodies a frame, in units of 2 ns of one thread. 8 million are 8 ms of a frame on two cores.
     /// Ductile and elastic bodies that are awake take up to half of it first. A hit that one worker has to do alone
     /// takes at most half. 1000 to 1e15. More units finish a hit in fewer frames. No wall clock decides, so that the
     /// same run gives the same bytes on a fast and on a slow machine.

@@ -43,8 +43,8 @@ struct BodyView {
     uint32_t index_count = 0;
     MaterialRun runs[kMostRuns];  // the first run_count, none empty, by (kind, material); they cover all indices
     uint32_t run_count = 0;
-    /// While the body is intact the buffers are those of this model, and the same for all its intact bodies: a game may
-    /// draw them as instances. The null handle: the body has a mesh of its own.
+    /// While the body is intact the buffers are those of this model, and the same for all its intact bodies. So a game
+    /// may draw them as instances. The null handle: the body has a mesh of its own.
     ModelId model;
     uint32_t stamp = 0;  // another number whenever the mesh is another one
     DirtyRange dirty_vertices, dirty_indices;

@@ -152,9 +152,10 @@ class World {
     /// the thread that steps, between the parallel parts, and must not call the world.
     void set_veto(bool (*allows)(void* user, const ImpactEvent& impact), void* user);
 
-    // All calls below refuse, with a sentence: handles of what is gone or never was; poses that are not finite, farther
-    // than 1e6 m from the origin along an axis or turned by no unit quaternion; velocities above 1e5 m/s or rad/s a
-    // component; values out of the ranges above; what a limit has no room for. What is refused changes nothing.
+    // All calls below refuse with a sentence what is wrong, and then change nothing. Wrong are handles of what is gone
+    // or never was. So are poses that are not finite, farther than 1e6 m from the origin along an axis, or turned by no
+    // unit quaternion. So are velocities above 1e5 m/s or rad/s a component, values out of the ranges above, and what a
+    // limit has no room for.
     /// Models can go at any time; bodies made of them live on. Refused: an empty one, and one for which a table of the
     /// world has no room.
     Result<ModelId> add_model(const Model& model);
@@ -202,7 +203,7 @@ class World {
     Result<void> wake(BodyId body);
 
     // Blows (damage.hpp), taken at the start of the next step. Refused: what is not finite or out of range, a body that
-    // is gone, and more blows than wait at once (limits.queued_hits and one a body).
+    // is gone, and more blows than can wait. That many are limits.queued_hits and one a body.
     /// As if a rigid striker hit the body there.
     Result<void> push_impact(BodyId body, const PushSettings& push);
     /// On all bodies in reach.

@@ -57,8 +57,8 @@ void close_regions(Serial, Own<TaskEnded> ended, BodyRows& rows, Events<CrackSta
 
 /// Which elements of a broken shell hang together.
 void find_parts(EachOwn<TaskEnded> ended, BodyRows& rows);
-/// Smooths the cracks of a run that ended, by one pass of (1/4, 1/2, 1/4) along them (C6). So they are drawn, and so
-/// they collide.
+/// Smooths the cracks of a run that ended, by one pass of (1/4, 1/2, 1/4) along them. So they are drawn, and so they
+/// collide.
 void smooth_cracks(EachOwn<TaskEnded> ended, SmoothedTables rows, const Tasks& tasks, const Blows& blows);
 /// The rest of what soft bodies gave. The bodies that they met have been moved as the run moved them. Now they get the
 /// velocity that they had at its end.
@@ -68,22 +68,22 @@ void show_soft(Serial, SoftRows& rows, Events<DrawnChanged>& changed, Events<Ref
 
 // ---- inner loop of a brittle shell: repeated for one task
 
-/// Contact springs of the patches, from the displacements before the step (6.3).
+/// Contact springs of the patches, from the displacements before the step.
 void push_patches(Of<Tasks> task, PatchTables rows);
-/// One fused pass (section 10): f_i = sum_j K_ij (w_j - w_i); v += dt f / m; u += dt v; next w = u + beta v.
+/// One fused pass: f_i = sum_j K_ij (w_j - w_i); v += dt f / m; u += dt v; next w = u + beta v.
 void integrate_hidden(Rows<StiffnessPacks> packs, Of<Tasks> task, RunStiffness of,
                       In<&Vertices::inverse_mass> inverse_mass, In<&Vertices::probe> probe,
                       InOut<&Vertices::velocity> velocity, InOut<&Vertices::displacement> displacement,
                       Out<&Vertices::probe> next_probe);
-/// Gives patch vertices and strikers what the springs pushed. The run ends when its time is up or all is quiet (6.4).
+/// Gives patch vertices and strikers what the springs pushed. The run ends when its time is up or all is quiet.
 void pass_impulses(Of<Tasks> task, Turn turn, PassedTables rows);
 /// Strain of each element and its slopes against its edges.
 void strain_check(Rows<Elements> elements, Of<Tasks> task, Turn turn, InChunks<TaskStress> rows);
-/// Stress of both faces of each element, and the largest principal value (C1).
+/// Stress of both faces of each element, and the largest principal value, which decides whether it cracks.
 void stress_check(Rows<Elements> elements, Of<Tasks> task, InChunks<TaskStress> rows);
-/// Starts and advances cracks, one body a call, in order of urgency (C1 to C5).
+/// Starts and advances cracks, one body a call, in order of urgency.
 void split_vertices(Of<Tasks> task, RunRows& rows);
-/// Above 1.05 of the start's energy the run begins again with half the step, at most twice (B7).
+/// Above 1.05 of the start's energy the run begins again with half the step, at most twice.
 void check_energy(Of<Tasks> task, RunRows& rows, const Blows& blows);
 
 // ---- inner loop of the quick mode: repeated for one task whose region is awake
@@ -94,17 +94,17 @@ void push_region_patches(Of<Tasks> task, RunRows& rows);
 void integrate_region(Rows<MarkedPacks> packs, Of<Tasks> task, Turn turn, InChunks<SteppedRegion> rows);
 /// What is held goes back, patches push, strikers move. The run ends after its steps.
 void end_region_step(Of<Tasks> task, RunRows& rows);
-/// Splits what has stretched too far (C3 to C5, paper mode).
+/// Splits what has stretched too far, as the published method does.
 void split_region(Of<Tasks> task, RunRows& rows);
 /// Above 1.05 of the start's energy the run is dropped.
 void check_region_energy(Of<Tasks> task, RunRows& rows);
 
 // ---- inner loop of springs: repeated for one shell that has them (ductile, quick mode)
 
-/// One layer in one fused pass (B3, B4, B6). It adds up force, area energy where the row has any, and damping from the
-/// length kept in the slot. Then it steps by semi-implicit Euler, and notes each vertex's largest elongation.
+/// One layer in one fused pass. It adds up force, area energy where the row has any, and damping from the length kept
+/// in the slot. Then it steps by semi-implicit Euler, and notes each vertex's largest elongation.
 void integrate_springs(Rows<SpringPacks> packs, Of<ShellSprings> springs, Turn turn, InChunks<SteppedTables> rows);
-/// The same for both layers and what ties them (B5).
+/// The same for both layers and what ties them.
 void integrate_layers(Rows<SpringPacks> packs, Of<ShellSprings> springs, Turn turn, InChunks<SteppedTables> rows);
 /// The sides of the positions change places.
 void end_spring_step(Of<ShellSprings> springs, ShellSprings& own);
@@ -117,10 +117,10 @@ void meet_strikers(Of<SoftBodies> soft_body, Of<ShellSprings> springs, Turn turn
                    const SoftBodies& soft, SoftStrikers& strikers, SoftContacts& contacts);
 /// Hinges of sheets whose material has a bending stiffness of its own, once in some substeps.
 void bend_sheets(Of<ShellSprings> springs, BentTables rows);
-/// Springs above yield get longer or shorter for good (6.8).
+/// Springs above yield get longer or shorter for good.
 void flow_springs(Rows<Springs> springs, Of<ShellSprings> of, Of<SoftBodies> soft_body, InChunks<FlowingTables> rows,
                   const SoftBodies& soft);
-/// Springs may be stretched beyond what they bear: then a vertex is split across the most stretched one (C1, C3).
+/// Springs may be stretched beyond what they bear: then a vertex is split across the most stretched one.
 void tear_springs(Of<SoftBodies> soft_body, Of<ShellSprings> springs, SoftRows& rows);
 
 }  // namespace cullet
