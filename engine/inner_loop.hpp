@@ -68,7 +68,7 @@ class InnerLoop {
         }
         /// Called by each worker; returns when the run is over. Even workers take chunks from the front, odd ones from
         /// the back, so that each meets nearly the same rows in every repetition and finds them in its cache. A claim
-        /// takes a share of what is left, and what a worker has done is counted when it finds nothing more to claim: a
+        /// takes a share of what is left. What a worker has done is counted when it finds nothing more to claim. A
         /// pass lasts 20 microseconds, and each word that passes between two cores takes a tenth of one.
         void work(uint32_t worker = 0) {
             const bool is_front = worker % 2 == 0;

@@ -20,7 +20,7 @@ struct alignas(64) Header {
 
 constexpr size_t kLine = 64, kColours = kPage / kLine;
 
-// Columns that are read side by side would otherwise all begin at the same place of a page, and their rows of the same
+// Columns that are read side by side would otherwise all begin at the same place of a page. Their rows of the same
 // number would share one set of the first-level cache, which has 8 to 12 places a set. So each block begins at a line
 // of its own, spread by the number of its first page.
 size_t colour_of(const void* memory) {

@@ -9,8 +9,8 @@
 //    16  u64      vertices                          56  u64  XXH3-64 of the 56 bytes before
 //    24  u64      triangles
 //
-// A chunk is four letters, u32 0, u64 bytes of data, and the data: f32 x 3 a vertex, u32 x 3 a triangle, f32 x 9
-// (normals) and f32 x 6 (texture coordinates) a triangle, u16 a triangle.
+// A chunk is four letters, u32 0, u64 bytes of data, and the data. These are f32 x 3 a vertex, u32 x 3 a triangle, f32
+// x 9 (normals) and f32 x 6 (texture coordinates) a triangle, u16 a triangle.
 #pragma once
 #include <span>
 #include <string>
@@ -29,9 +29,10 @@ constexpr uint64_t kLongestMeshName = 255;    // bytes
 /// Control characters become blanks, and so many bytes are kept: sentences quote strangers' files and their names.
 std::string one_line(std::string text, size_t most_bytes = 400);
 
-/// What every mesh that enters the library fulfils: at least one triangle, indices below the vertex count, corner
-/// arrays of the right length, finite coordinates of a size that can be squared, normals of length 1 or 0, a printable
-/// name. Says nothing of shape: repeated corners, holes and crossings are the business of cooking.
+/// What every mesh that enters the library fulfils. It has at least one triangle, indices below the vertex count,
+/// corner arrays of the right length, and a printable name. Its coordinates are finite and of a size that can be
+/// squared. Its normals are of length 1 or 0. Says nothing of shape: repeated corners, holes and crossings are the
+/// business of cooking.
 Result<void> validate_mesh(const Mesh& mesh, const std::string& name);
 
 /// The name stands in sentences only. Refuses any byte string that encode_mesh_file of a valid mesh does not give;

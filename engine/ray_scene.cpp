@@ -112,8 +112,8 @@ struct RayScene::Impl {
 };
 
 // The device's setting threads=1 would limit oneTBB in the whole process for as long as the device lives. A device born
-// inside an arena with room for the calling thread alone takes that as its own limit, and joining the commit keeps the
-// build there (measured: without either of the two, a second thread does half of the work).
+// inside an arena with room for the calling thread alone takes that as its own limit. Joining the commit keeps the
+// build there. Measured: without either of the two, a second thread does half of the work.
 RayScene::RayScene(std::span<const Vec3> positions, std::span<const Triangle> triangles)
     : impl_(std::make_unique<Impl>()) {
     oneapi::tbb::task_arena alone(1, 1);

@@ -199,9 +199,9 @@ class RigidWorld {
     /// These were one body until now. For half a second what they do to each other does not throw them: it takes speed
     /// from their flight beside each other and from their spins, and gives none. A host's contacts are its own affair.
     virtual void name_siblings(std::span<const RigidId>) {}
-    /// The two were one body until now, and are where they were in it. Convex pieces of theirs that lie in each other,
-    /// as hulls about the teeth of a crack do, or are nearer than contacts reach, meet at those of `touches` that are
-    /// near, or not at all, until they are farther apart, for a quarter of a second at most.
+    /// The two were one body until now, and are where they were in it. Some convex pieces of theirs lie in each other,
+    /// as hulls about the teeth of a crack do, or are nearer than contacts reach. They meet at those of `touches` that
+    /// are near, or not at all, until they are farther apart, for a quarter of a second at most.
     virtual void part_siblings(RigidId a, RigidId b, std::span<const CrackTouch> touches) = 0;
 
     /// A soft body stands as it is put and has no contacts; nothing is swept against it. Who runs its springs asks for
@@ -218,9 +218,10 @@ class RigidWorld {
     /// Of something small that comes off a body at this place: where it is on the side of static triangles that the
     /// body is on.
     virtual Vec3 to_side_of(RigidId, Vec3 place) const { return place; }
-    /// Of a ball of `radius` on its way from one place to the other, in the `seconds` in which bodies came to where
-    /// they are: the first touch with those that reach at least `least_reach` m from their centres, and with all that
-    /// never move. What it begins too deep in is passed over. Changes nothing; may be asked on all threads at once.
+    /// The first touch of a ball of `radius` on its way from one place to the other, in the `seconds` in which bodies
+    /// came to where they are. It is with those that reach at least `least_reach` m from their centres, and with all
+    /// that never move. What it begins too deep in is passed over. Changes nothing; may be asked on all threads at
+    /// once.
     virtual bool first_touch(Vec3, Vec3, float, float, float, RigidTouch&) const { return false; }
     /// By ignore_pair().
     virtual bool is_ignored(RigidId, RigidId) const { return false; }
@@ -239,7 +240,7 @@ class RigidWorld {
     /// next step.
     virtual std::span<const RigidContact> loads() const { return contacts(); }
 
-    /// Height of the highest static triangle straight below `point`, or `fallback`: where crumbs come to rest in a
+    /// Height of the highest static triangle straight below `point`, or `fallback`: where debris comes to rest in a
     /// world that does not know surfaces, and asked of no other.
     virtual float height_below(Vec3, float fallback) const { return fallback; }
     virtual bool is_asleep(RigidId id) const = 0;

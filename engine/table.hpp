@@ -117,7 +117,7 @@ class AnyTable {
     void copy_rows(const AnyTable& source, uint32_t from, uint32_t to, uint32_t count);
     void clear_rows(uint32_t first, uint32_t count);
     /// Pages for rows [0, count), so that a frame that reaches them meets no page fault (1 ns a byte, more than what it
-    /// does with the row), and for some more at once, since each call to the system costs. Those that were asked for
+    /// does with the row). It takes some more at once, since each call to the system costs. Those that were asked for
     /// before cost nothing. The first of them alone where they are more than `most` bytes; what it asked for, in bytes.
     uint64_t commit_rows(uint32_t count, uint64_t most = ~uint64_t{0});
 

@@ -1,7 +1,7 @@
 // Yardstick (e): substeps and iterations do not converge alike, so the ratio of their times says little by itself. Here
-// both hold up a strip of 107 x 9 nodes and 1 m that should not stretch: Bullet's soft body by iterations over its
-// links, a frame of 1/60 s at once; our springs by substeps that share the frame, as stiff as a step of that length
-// bears. How far it stretches is the error. At equal time ours is to be no larger.
+// both hold up a strip of 107 x 9 nodes and 1 m that should not stretch. Bullet's soft body does so by iterations over
+// its links, a frame of 1/60 s at once. Our springs do so by substeps that share the frame, as stiff as a step of that
+// length bears. How far it stretches is the error. At equal time ours is to be no larger.
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 
 #include <algorithm>

@@ -25,7 +25,7 @@ constexpr Row<Tasks> kTask{0};
 constexpr uint32_t kSliceSteps = 3, kTeamSliceSteps = 24;
 constexpr double kFallSpeed = 5.4;  // m/s, 1.5 m
 
-/// Least time of each of a run's small parts over many equal runs: the run does the same work every time, so the sum of
+/// Least time of each of a run's small parts over many equal runs. The run does the same work every time. So the sum of
 /// the least is what it takes on a machine that does nothing else, however busy this one is.
 class LeastTimes {
  public:

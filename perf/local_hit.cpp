@@ -44,7 +44,7 @@ Hit hit_once(const Model& model, float height, FractureMode mode) {
     Settings settings;
     settings.gravity = {};
     settings.units_a_frame = 1'000'000'000;
-    settings.debris_share = 0, settings.debris_elements = 3;  // bodies, not crumbs
+    settings.debris_share = 0, settings.debris_elements = 3;  // bodies, not debris
     settings.limits.vertices = 1u << 19, settings.limits.elements = 1u << 20, settings.limits.view_vertices = 1u << 22;
     World world = World::create(settings).value();
     const ModelId id = world.add_model(model).value();

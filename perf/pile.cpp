@@ -130,9 +130,9 @@ void run_ours(float radius, float margin, const std::vector<Vec3>& points, Frame
 // The choice of shapes leaves the icosahedron a hull: the box about it has 1.9 times its volume, a box is chosen below
 // 1.15 (design section 8 and the shapes). What it makes boxes of are bricks, so these have a row of their own:
 // cubes, which plain Bullet is given as hulls of eight points, as it was the others. Ours are measured twice: as plain
-// Bullet's hulls are, and with the thin margin that pieces are born with. That gives another pile: its hulls lie
-// closer, with a fifth more pairs at 0.15 m and 2.4 times as many at 0.05 m, and its bricks still tumble in these
-// frames (in frames 200 to 600 they cost what rounded ones do, within 3 %).
+// Bullet's hulls are, and with the thin margin that pieces are born with. That gives another pile. Its hulls lie
+// closer, with a fifth more pairs at 0.15 m and 2.4 times as many at 0.05 m. Its bricks still tumble in these frames.
+// In frames 200 to 600 they cost what rounded ones do, within 3 %.
 bool measure_pile(const Options& options, Figures& figures) {
     struct Row {
         const char* name;

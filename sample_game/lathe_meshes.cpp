@@ -17,8 +17,9 @@ struct ProfilePoint {
     double radius = 0, y = 0;
 };
 
-/// A smooth meridian from the pole to the rim, by arc length: uniform cubic B-spline over the control points, mirrored
-/// at the pole and clamped at the rim, stored as a polyline fine enough (some 0.1 mm) to be taken for the curve.
+/// A smooth meridian from the pole to the rim, by arc length. It is a uniform cubic B-spline over the control points,
+/// mirrored at the pole and clamped at the rim. It is stored as a polyline fine enough (some 0.1 mm) to be taken for
+/// the curve.
 struct Profile {
     std::vector<ProfilePoint> points;
     std::vector<double> distance;

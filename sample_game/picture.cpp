@@ -256,9 +256,8 @@ float Painter::line_between(uint32_t a, uint32_t b) const {
 }
 
 // How dark the line is here: 4 f (1 - f), f being the share of other bodies under a bell of 0.6 pixels about the
-// middle. At a distance d from an edge f is the normal distribution of -d / 0.6; summed over pixels across the edge the
-// ink is then the same within 2 per cent wherever the edge passes between them, so that slanted lines do not look
-// dotted.
+// middle. At a distance d from an edge f is the normal distribution of -d / 0.6. Summed over pixels across the edge the
+// ink is then the same within 2 per cent wherever the edge passes between them. So slanted lines do not look dotted.
 float Painter::line(uint32_t x, uint32_t y) const {
     static const LineBell bell = line_bell();
     const uint32_t middle = pixels_[at(x, y)].front;

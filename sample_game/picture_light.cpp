@@ -26,8 +26,8 @@ struct Point3 {
     float a, b, c;  // in [0, 1)
 };
 
-// Point n of Roberts' R3 sequence (steps by powers of 1 / 1.2207, the root of x^4 = x + 1, as fixed-point fractions),
-// shifted by a hash of the 4 x 4 tile: even within a tile, without bands from tile to tile.
+// Point n of Roberts' R3 sequence, shifted by a hash of the 4 x 4 tile: even within a tile, without bands from tile to
+// tile. Its steps are powers of 1 / 1.2207, the root of x^4 = x + 1, as fixed-point fractions.
 Point3 point_of(uint32_t x, uint32_t y, uint32_t sample, uint32_t stream) {
     const uint32_t n = 16 * sample + kBayer[y & 3][x & 3];
     const uint32_t tile = mixed(mixed((x >> 2) + 0x9e3779b9u * stream) + (y >> 2));

@@ -15,7 +15,7 @@ struct TruthSettings {
 
 /// Names of the damage models that have cases: "thick_shell, ...".
 std::string truth_models();
-/// Prints a table for one of them and returns the program's exit code: 0 when all figures are met, 1 when some are not,
+/// Prints a table for one of them and returns the exit code: 0 when all figures are met, 1 when some are not,
 /// 2 for a model that is not known or a folder that cannot be written.
 int run_truth(const std::string& model, const TruthSettings& settings);
 

@@ -19,7 +19,7 @@ namespace {
 constexpr double kMedianBand = 0.35, kStepBand = 0.05;   // about the known medians; between a step and its half
 constexpr double kWholeBelow = 0.4, kBrokenAbove = 2.5;  // of the two medians
 // Note, section 15: the bands are asked of 20 placements, about their medians; of how many the medians between steps
-// are, it leaves open. Speeds of the vase's first piece spread by a factor of five and few lie near the middle: with 20
+// are, it leaves open. Speeds of the vase's first piece spread by a factor of five and few lie near the middle. With 20
 // the median jumps by 6 %, from one placement to the next, when one of them breaks another way at half the step. With
 // 40 it moves by 4 %. The bands stay with 20: the more placements, the more surely one lies in a tail. How many of all
 // lie outside the bands about the medians of all is printed, and not judged.

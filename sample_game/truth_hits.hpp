@@ -1,4 +1,4 @@
-// Case 9: how fast a vase, a pane and a wall must be hit before they crack, and before a piece comes loose: by
+// Case 9: how fast a vase, a pane and a wall must be hit before they crack, and before a piece comes loose. It goes by
 // bisection, over seeded placements, at the hidden run's step and at half of it, beside the speeds that are known.
 #pragma once
 #include <nlohmann/json.hpp>

@@ -31,9 +31,9 @@ class Places {
     std::map<std::string, size_t> by_name_;  // the first of each name
 };
 
-/// Where the points of a mesh stand that a node shows. Bones move a point to their node's place times their offset
-/// (the inverse of the place they were bound at, and with Collada also the place of the bound shape); the place of the
-/// node that shows the mesh then does not matter.
+/// Where the points of a mesh stand that a node shows. Bones move a point to their node's place times their offset. The
+/// offset is the inverse of the place they were bound at, and with Collada also the place of the bound shape. The place
+/// of the node that shows the mesh then does not matter.
 class BonePose {
  public:
     BonePose(const aiMesh& mesh, const Places& places, const Affine& node);

@@ -26,10 +26,10 @@ inline double longest_wait(const ImportLimits& limits) {
     return std::max(limits.seconds + 1.0, 1.4 * limits.seconds);
 }
 
-/// Any model that can be read as one mesh, in metres (by the unit of the file or its format; without one, numbers are
-/// metres): node transforms applied (a mirroring one turns the winding), skins as their joints rest, polygons cut into
-/// triangles, points joined where all three coordinates are equal, triangles with a repeated corner, lines and points
-/// left out. May crash, hang or throw: call it inside run_limited only.
+/// Any model that can be read as one mesh, in metres: by the unit of the file or its format. Without one, numbers are
+/// metres. Node transforms are applied (a mirroring one turns the winding), and skins are taken as their joints rest.
+/// Polygons are cut into triangles. Points are joined where all three coordinates are equal. Triangles with a repeated
+/// corner, lines and points are left out. May crash, hang or throw: call it inside run_limited only.
 struct ConvertedModel {
     Mesh mesh;
     uint64_t collapsed = 0;  // triangles left out

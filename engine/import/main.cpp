@@ -1,7 +1,7 @@
 // cullet_import IN OUT.cmesh [--memory-mib 1024] [--seconds 10] [--notes-apart], or cullet_import --version
-// Exit code 0 and one line of counts and repairs (with --notes-apart a second one for what the mesh file does not hold,
-// where there is anything), or 2 and one sentence. OUT is written whole or not at all, and over
-// ordinary files only, never over IN.
+// Exit code 0 and one line of counts and repairs, or 2 and one sentence. With --notes-apart a second line tells what
+// the mesh file does not hold, where there is anything. OUT is written whole or not at all, and over ordinary files
+// only, never over IN.
 #include <assimp/version.h>
 #include <sys/stat.h>
 #include <unistd.h>

@@ -8,8 +8,8 @@
 
 namespace cullet {
 
-/// Binary is what has as many bytes as its count of facets says, whatever word it begins with; text is what has the
-/// words of STL; what is neither but has more bytes than its count says is binary with something behind. Facets keep
+/// Binary is what has as many bytes as its count of facets says, whatever word it begins with. Text is what has the
+/// words of STL. What is neither but has more bytes than its count says is binary with something behind. Facets keep
 /// the order of their corners; their normals are used where they are numbers of some length.
 Result<Corners> read_stl(std::string bytes, const std::string& path);
 

@@ -1,6 +1,6 @@
--- A street of 20 houses, towers and garden walls of brick, each held by the ground at its foot, and 100 explosions in 20
--- seconds, five a building: two when its turn comes, then two more and one in what stands or lies there. At most 2,000
--- pieces live: the oldest that lie still make room for new ones.
+-- A street of 20 houses, towers and garden walls of brick, each held by the ground at its foot. 100 explosions come in
+-- 20 seconds, five a building: two when its turn comes, then two more and one in what stands or lies there. At most
+-- 2,000 pieces live: the oldest that lie still make room for new ones.
 game.scene{
     shows = "a street of 20 houses, towers and walls under 100 explosions in 20 seconds",
     seconds = 20,

@@ -70,8 +70,8 @@ constexpr AcrossValue kAcross[] = {{"across_young_modulus", &S::across_young_mod
                                    {"across_strength", &S::across_strength, &S::tensile_strength},
                                    {"across_fracture_energy", &S::across_fracture_energy, &S::fracture_energy}};
 
-/// A material that is the same in all directions across its grain has positive energy in all planes when
-/// 2 nu^2 E_across < (1 - nu) E_along (its compliance's sign in the plane of equal tensions across), nu being used for
+/// A material that is the same in all directions across its grain has positive energy in all planes when 2 nu^2
+/// E_across < (1 - nu) E_along. That is its compliance's sign in the plane of equal tensions across. nu is used for
 /// both kinds of contraction.
 Result<void> check_grain(const S& m) {
     if (m.kind != MaterialKind::Brittle || m.across_young_modulus == 0) return {};

@@ -1,9 +1,9 @@
 // A world as bytes: the settings, every State column, the pools of rows, the rigid bodies. What a snapshot does not
 // hold is the host's: its functions, its jobs, the veto.
 //
-// The header of engine/file_header.hpp, version 20, magic "csnap\r\n\x1a"; then the settings as numbers, the names
-// of the damage models, counts as numbers, the tables in the order of State::Sets as engine/table_bytes.hpp writes
-// them, the holes of the pools, the rigid world.
+// First the header of engine/file_header.hpp, version 20, magic "csnap\r\n\x1a". Then the settings as numbers, the
+// names of the damage models, counts as numbers. Then the tables in the order of State::Sets, as engine/table_bytes.hpp
+// writes them, the holes of the pools, the rigid world.
 #pragma once
 #include <memory>
 #include <span>

@@ -15,7 +15,7 @@ struct HandoffStart {
     Rows<Touches> touches = {};
 };
 
-/// A body that comes apart: some of its fragments leave as bodies or crumbs.
+/// A body that comes apart: some of its fragments leave as bodies or debris.
 struct Break {
     Row<Bodies> body;  // the largest fragment keeps it, and its rows in `broken`
     Row<Tasks> task;   // or none: a body whose loose pieces found no room asks again

@@ -1,4 +1,4 @@
-// Which fragments become crumbs, which bodies, and which stay with the largest.
+// Which fragments become debris, which bodies, and which stay with the largest.
 #pragma once
 #include "systems/births/planning.hpp"
 

@@ -18,8 +18,9 @@ void settle(Planning& planning, Break& plan);
 /// stopped by, and that it was, goes on to be counted.
 void join_motions(Fragments& fragments, Row<Fragments> fragment, Row<Fragments> joined);
 
-/// J that pieces may have beyond the body's motion where none of them left: what the contact that is solved now takes
-/// for certain, as half of what two bodies lose that meet without bouncing; of a late result what it has taken.
+/// J that pieces may have beyond the body's motion where none of them left. It is what the contact that is solved now
+/// takes for certain: half of what two bodies lose that meet without bouncing. Of a late result it is what that has
+/// taken.
 double lost_to_touch(const BodyRows& state, Row<Tasks> task);
 
 }  // namespace cullet

@@ -5,7 +5,7 @@
 namespace cullet {
 namespace {
 
-// A push goes to the piece that owns the nearest vertex; a crumb takes it along. False: the row is gone.
+// A push goes to the piece that owns the nearest vertex; debris takes it along. False: the row is gone.
 bool hand_on_push(Planning& planning, const Break& plan, uint32_t row) {
     Blows& blows = planning.blows;
     const Fragments& f = planning.fragments;

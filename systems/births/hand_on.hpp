@@ -4,7 +4,7 @@
 
 namespace cullet {
 
-/// Hits go to the piece that owns the nearest vertex; a crumb takes its own along.
+/// Hits go to the piece that owns the nearest vertex; debris takes its own along.
 void hand_on_hits(Planning& planning, const Break& plan);
 
 /// Blows: a push goes as a hit does, explosions and cuts go to all pieces. They have moved the body already. Each piece

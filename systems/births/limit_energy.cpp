@@ -22,7 +22,7 @@ Sym3d world_inertia(const Bodies& bodies, Row<Bodies> b) {
     return {a.x, b_.y, c.z, a.y, a.z, b_.z};
 }
 
-// A piece, the body that keeps the handle among them, or a crumb, which is a point. World axes.
+// A piece, the body that keeps the handle among them, or debris, which is a point. World axes.
 struct Mover {
     Row<Bodies> body;
     uint32_t debris = kNone;

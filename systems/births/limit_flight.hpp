@@ -10,7 +10,7 @@ namespace cullet {
 /// impact speed, nor does its rim turn faster (thick shell note 6.6). settle_momenta keeps to it by the centre of a
 /// piece's vertices, and only as far as the hidden state's energy allows; here it is the solid's centre, which lies
 /// elsewhere by some hundredths of its size. What the largest piece gets by that limit_energy keeps within bounds.
-/// Crumbs are points and keep to settle_momenta's limit, and so do pieces of an explosion, whose energy has no bound.
+/// Debris is points and keeps to settle_momenta's limit, and so do pieces of an explosion, whose energy has no bound.
 struct FlightLimit {
     double most_speed = 0;         // m/s; 0: no limit
     Vec3d centre, velocity, spin;  // of the body before the hit, m, m/s, rad/s

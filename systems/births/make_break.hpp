@@ -27,7 +27,7 @@ struct Births {
     const StructureCalls& calls(Row<Structures> structure) const { return calls_of(state.structures, structure); }
 };
 
-/// Motions, rigid bodies, crumbs and events of all pieces, in order of mass; strikers get what they really passed.
+/// Motions, rigid bodies, debris and events of all pieces, in order of mass; strikers get what they really passed.
 void make_break(Births& births, const Break& plan);
 
 }  // namespace cullet

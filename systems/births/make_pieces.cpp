@@ -13,7 +13,7 @@
 namespace cullet {
 namespace {
 
-// The row of the crumb; planning counted: there is room.
+// The row of Debris; planning counted: there is room.
 uint32_t make_debris(Births& births, const Break& plan, Row<Fragments> f, const Moment& moment) {
     const PartMotion part = motion_of(births.fragments, f);
     const Motion motion = world_motion(moment, part);

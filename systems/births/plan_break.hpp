@@ -4,7 +4,7 @@
 
 namespace cullet {
 
-/// Crumbs that the world has room for when a step's planning begins.
+/// Debris that the world has room for when a step's planning begins.
 uint32_t free_debris(const Debris& debris);
 /// Fragments that limits.fragments leaves room for then.
 uint32_t free_fragments(const FragmentAges& ages, const DamageSettings& settings);

@@ -65,7 +65,7 @@ void give_back_body(Planning& planning, Break& plan, Row<Fragments> row) {
 }
 
 // Room for the rest's drawn mesh. Where there is none the lightest pieces give their rows back and stay, and in the end
-// the crumbs do. False when even then there is none: the mesh that was drawn last stands.
+// the debris does. False when even then there is none: the mesh that was drawn last stands.
 bool reserve_view(Planning& planning, Break& plan) {
     if (keeps_mesh(planning, plan)) return plan.keeps_mesh = true;
     uint32_t lightest = plan.fragments.count;

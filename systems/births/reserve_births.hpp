@@ -13,8 +13,8 @@ bool reserve_hulls(Planning& planning, Break& plan);
 /// Plans and reserves; what is refused asks again in the next frame. True: something leaves.
 bool reserve_births(Planning& planning, Break& plan);
 
-/// Whether only those cells of a body are to be drawn anew that changed: the mesh that is drawn of it is up to date,
-/// and has room for what is new of `structure`, or of that part of it alone.
+/// Whether only those cells of a body are to be drawn anew that changed. For that the mesh that is drawn of it has to
+/// be up to date. It has to have room for what is new of `structure`, or of that part of it alone.
 bool has_room_to_redraw(Planning& planning, Row<Bodies> body, Row<Structures> structure, uint32_t part = kNone);
 
 /// The task's cuts wait until there is room (close_blows): the body stays as it was.

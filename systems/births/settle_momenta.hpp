@@ -22,11 +22,11 @@ struct HandoffReport {
 /// What the fragments' structure summed (StructureCalls::sum_momenta) becomes their motions: each turns with the
 /// inertia of its points, and what holds a pin stands. Hidden runs let crack faces pass through each other: fragments
 /// that would go on to do so are stopped where they touch (stop_approach), before the clamps. Clamps: a fragment's
-/// speed relative to the body's motion before the hit (V + w x r at its centre) is at most twice the impact speed, and
-/// what is cut off goes to the largest, which is not clamped; its spin relative to the body's before is at most 2
-/// impact_speed / radius (relative, or a body that flew spinning would lose its spin on breaking). Where the largest
-/// would get more energy by that than there was, all clamps go as far as energy allows and no farther. Changes nothing
-/// but rows of these fragments and of their touches.
+/// speed relative to the body's motion before the hit (V + w x r at its centre) is at most twice the impact speed. What
+/// is cut off goes to the largest, which is not clamped. Its spin relative to the body's before is at most 2
+/// impact_speed / radius. It is relative, or a body that flew spinning would lose its spin on breaking. Where the
+/// largest would get more energy by that than there was, all clamps go as far as energy allows and no farther. Changes
+/// nothing but rows of these fragments and of their touches.
 HandoffReport settle_momenta(Fragments& fragments, Rows<Fragments> of, Touches& touches, const HandoffStart& start,
                              ScratchMemory& scratch);
 

@@ -8,8 +8,8 @@ namespace {
 
 // Faces of a crack are rough: what slides along one has to climb its teeth, so that it opens by this much of what it
 // slides (the dilation of rock joints, 30 degrees). Smooth faces let shards spin on at their rims' speed among
-// neighbours that they leave at a tenth of it, and hit them in the next frames: of 1,000 random breaks the tenth that
-// loses most then loses 6 to 8 % of its energy in 3 steps, so 2.3 and 1.3; at 1 twice as many pairs are seen in each
+// neighbours that they leave at a tenth of it, and hit them in the next frames. Of 1,000 random breaks the tenth that
+// loses most then loses 6 to 8 % of its energy in 3 steps, so 2.3 and 1.3. At 1 twice as many pairs are seen in each
 // other later.
 constexpr double kDilation = 0.6;
 constexpr double kSteep = 0.857492925712544;  // 1 / sqrt(1 + kDilation^2), the cosine of a tooth's slope

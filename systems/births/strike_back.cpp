@@ -109,10 +109,10 @@ uint32_t answering_contact(BodyRows& state, Row<Bodies> striker, Row<Bodies> bod
     return found;
 }
 
-// Of what one striker that broke first passed, and what the run of this body passed there: the difference of the two,
-// to its largest piece where that is the larger one's and gets slower by it (the pieces of this body have no energy to
-// pay for it). Returns what this body's own heir has to take, body axes; `allowed` follows. Its contacts are answered
-// then.
+// One striker that broke first passed something, and the run of this body passed something there. The difference of the
+// two goes to its largest piece, where that is the larger one's and gets slower by it. The pieces of this body have no
+// energy to pay for it. Returns what this body's own heir has to take, body axes; `allowed` follows. Its contacts are
+// answered then.
 Vec3d settle_answers(Births& births, Row<Tasks> task, const Pose& pose, uint32_t contact, double& allowed) {
     auto& state = births.state;
     TaskContacts& contacts = state.task_contacts;
@@ -146,7 +146,7 @@ Vec3d settle_answers(Births& births, Row<Tasks> task, const Pose& pose, uint32_t
 
 // What the pins took during the run is what is missing from the pieces: hidden steps keep momentum to rounding, 1e-5 to
 // 9e-5 of the blow's in 2,000 steps. It is lost in plain steps (cuts lose 3e-6, contacts 4e-7), and not by the speed of
-// the body, whose own frame does as badly: stiffness entries are floats, so a vertex's column of blocks is off its row
+// the body, whose own frame does as badly. Stiffness entries are floats. So a vertex's column of blocks is off its row
 // by 2e-8, and pieces that turn pull on that with all their displacement. Uncracked bodies lose 1e-7 to 1e-6.
 double strike_back(Births& births, const Break& plan, const Pose& pose) {
     auto& state = births.state;

@@ -67,11 +67,11 @@ std::span<const ConvexPiece> changed_pieces(const StructureRows& state, Row<Stru
     return pieces_of(state, structure, arena, 0, is_wanted);
 }
 
-// Rolling friction is a length, by which the point that bears a body may miss its centre: a seventieth of the root of
-// its area, as of a rim that is chipped, and no more than the gravel of a floor. With a third of it whole vases roll
-// to and fro on a heap for six seconds after the last break; without a bound a slab of 750 kg takes ten to tip over,
-// and at three times it slabs stand upright on one corner. What is too large for gravel rolls on its own rim: the round
-// of a tower of 20 m, with the bound alone, rolls for minutes, and with the share of shards no slab of it would tip
+// Rolling friction is a length, by which the point that bears a body may miss its centre. It is a seventieth of the
+// root of its area, as of a rim that is chipped, and no more than the gravel of a floor. With a third of it whole vases
+// roll to and fro on a heap for six seconds after the last break. Without a bound a slab of 750 kg takes ten to tip
+// over. At three times it slabs stand upright on one corner. What is too large for gravel rolls on its own rim. The
+// round of a tower of 20 m, with the bound alone, rolls for minutes. With the share of shards no slab of it would tip
 // over. Where it was set it is that of a ball of as much surface.
 constexpr float kRollingShare = 0.0135f, kLargeRollingShare = 0.002f;
 constexpr float kMostRolling = 0.00675f;    // m, of what is not large

@@ -5,7 +5,7 @@
 
 namespace cullet {
 
-/// From where the game's blows have been taken to where crumbs have fallen. Contacts, cracks, sleep, plastic flow and
+/// From where the game's blows have been taken to where debris has fallen. Contacts, cracks, sleep, plastic flow and
 /// drag take energy; nothing in a frame may add any but what is counted here, which comes from outside or is the price
 /// of steps: E_end <= E_start + from_outside + rigid work + tolerance.
 struct EnergyBalance {

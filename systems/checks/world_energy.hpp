@@ -8,7 +8,7 @@ class DamageModels;
 
 /// J. Of what moves by forces, and of bodies that stand on pins, whose pieces will.
 struct MechanicalEnergy {
-    double kinetic = 0;  // of dynamic bodies as rigid ones, of crumbs, of soft bodies that are awake by their points
+    double kinetic = 0;  // of dynamic bodies as rigid ones, of debris, of soft bodies that are awake by their points
     double height = 0;   // -m g . x, x from the world's origin
     double strain = 0;   // of the springs of soft bodies that are awake
     double waiting = 0;  // that bodies which struck each other gain when the task of the second ends, which may be

@@ -1,10 +1,9 @@
-// The table of the thick shell note, section 8. Typical handbook values; grades spread by a third and more. What the
-// note has no column for: crush strength of the dense ones is the indentation (Vickers) hardness, of brick and
-// concrete, whose pores collapse, two to three times the compressive strength of a cube (15 to 20 and 35 to 45 MPa),
-// because the material around confines what is crushed, of wood the side hardness (Brinell, softwoods 10 to 30 MPa).
-// Wood's shear modulus is 0.06 of the modulus along the grain (Wood
-// Handbook, table 5-1, softwoods 0.05 to 0.08), and what it takes to break fibres rather than part them 12 kJ/m2 (Ashby
-// and Jones, Engineering Materials 1, table 13.1: 8 to 20).
+// Typical handbook values; grades spread by a third and more. Crush strength of the dense ones is the indentation
+// (Vickers) hardness. That of brick and concrete, whose pores collapse, is two to three times the compressive strength
+// of a cube (15 to 20 and 35 to 45 MPa), because the material around confines what is crushed. That of wood is the side
+// hardness (Brinell, softwoods 10 to 30 MPa). Wood's shear modulus is 0.06 of the modulus along the grain (Wood
+// Handbook, table 5-1, softwoods 0.05 to 0.08). To break fibres rather than part them takes 12 kJ/m2 (Ashby and Jones,
+// Engineering Materials 1, table 13.1: 8 to 20).
 #include "systems/cook/materials.hpp"
 
 namespace cullet {

@@ -3,12 +3,12 @@
 //
 // The header of engine/file_header.hpp, version 14, magic "cmodl\r\n\x1a", then the payload.
 //
-// Payload: the text name (u32 bytes, the bytes), the text of its damage model; the material: its name, u8 kind, u8
-// fracture, f32 for each of material_values() in that order, f32 x, y, z of the grain; the texts repairs, advice,
-// walls; the report's numbers (u64 units; f64 mass, thickness; f32 speed, force; u32 vertices, elements, cells,
-// degenerate elements, collisions, inverted elements, crossings); then the tables structures and shells (one row each),
-// vertices, elements, triangle_springs, hinges, stiffness_packs, stiffness_blocks, stiffness_links, cells, hull_points,
-// as engine/table_bytes.hpp writes tables.
+// The payload begins with the text name (u32 bytes, the bytes), and the text of its damage model. Then comes the
+// material: its name, u8 kind, u8 fracture, f32 for each of material_values() in that order, f32 x, y, z of the grain.
+// Then come the texts repairs, advice, walls. Then come the report's numbers: u64 units; f64 mass, thickness; f32
+// speed, force; u32 vertices, elements, cells, degenerate elements, collisions, inverted elements, crossings. Then come
+// the tables, as engine/table_bytes.hpp writes them: structures and shells (one row each), vertices, elements,
+// triangle_springs, hinges, stiffness_packs, stiffness_blocks, stiffness_links, cells, hull_points.
 #pragma once
 #include <span>
 #include <vector>

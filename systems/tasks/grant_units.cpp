@@ -117,10 +117,10 @@ void grant_cuts(const Granting& g, std::span<const uint32_t> order, std::span<co
 }  // namespace
 
 // A run's last step waits for a frame that has units for what follows it, so that no frame has all of a hit; its cracks
-// take from the frame's units while it runs. What they cost more than was granted for is owed, and paid before
-// the next frame's steps; cuts of the game are paid in the frame that makes them, and so are births that are known
-// before the pass: a foreseen break beside a full frame of another hit was the worst of scene vase. A task gets at
-// least one step a frame, but for brief ones behind the oldest, so that none can starve.
+// take from the frame's units while it runs. What they cost more than was granted for is owed, and paid before the next
+// frame's steps. Cuts of the game are paid in the frame that makes them, and so are births that are known before the
+// pass. A foreseen break beside a full frame of another hit was the worst of scene vase. A task gets at least one step
+// a frame, but for brief ones behind the oldest, so that none can starve.
 void grant_units(Serial, WorldRows& rows, DamageLedger ledger) {
     static constexpr uint32_t kMostTasks = 1024;
     struct Work {

@@ -1,4 +1,4 @@
-// A body goes, with the hits on it: what the game removes, and what is ground to a crumb.
+// A body goes, with the hits on it: what the game removes, and what is ground to debris.
 #pragma once
 #include "systems/world_data.hpp"
 

@@ -333,9 +333,9 @@ TEST(State, ASetGivesWhatItStandsOnAndNeverMore) {
 }
 
 TEST(State, EveryTableIsListedOnce) {
-    // The struct holds nothing but the listed tables, the limits of each set, scratch memory, what finds the materials,
-    // the sums of vertices and the rooms in which solids break, which are made anew from the listed ones: their sizes
-    // add up.
+    // The struct holds the listed tables, the limits of each set, scratch memory and what finds the materials. It also
+    // holds the sums of vertices and the rooms in which solids break, which are made anew from the listed ones. It
+    // holds nothing else: their sizes add up.
     State state(small_limits());
     size_t bytes = 0;
     std::set<std::string> names;

@@ -76,7 +76,7 @@ float height_over(const Hull& hull, const Mat3& rotation, Vec3 at, Vec3 place) {
     return most;
 }
 
-// Points of a patch along a slant normal lie on a prism's side, 1.6 mm below the rim that is touched: an edge inside of
+// Points of a patch along a slant normal lie on a prism's side, 1.6 mm below the rim that is touched. An edge inside of
 // what is flat was taken for a side, and threw a shard up by 56 mm.
 TEST(ContactPatch, TheNearestPlacesAreOnBothPiecesAndAsFarApartAsNoPointIsNearer) {
     Dice dice;

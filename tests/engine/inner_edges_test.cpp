@@ -64,9 +64,9 @@ std::vector<Trips> slide(const Floor& floor, const std::vector<Slider>& sliders,
     return trips;
 }
 
-/// What any of the rulers does, most like `got`. Each of them is as good as the others: on hills the same surface, cut
-/// finer once and twice, gives hops that differ by more than 3 mm in 6 of 600 cases, and by up to 40, as what has taken
-/// off at 20 m/s comes down on another corner.
+/// What any of the rulers does, most like `got`. Each of them is as good as the others. On hills the same surface, cut
+/// finer once and twice, gives hops that differ by more than 3 mm in 6 of 600 cases. They differ by up to 40, as what
+/// has taken off at 20 m/s comes down on another corner.
 Trip nearest_of(const std::vector<std::vector<Trips>>& rulers, uint32_t k, size_t step, const Trip& got) {
     Trip nearest = rulers[0][k][step];
     for (const std::vector<Trips>& ruler : rulers) {

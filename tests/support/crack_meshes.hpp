@@ -38,9 +38,10 @@ Sym3d tension_along(Vec3 direction, double pascal);
 Row<Tasks> make_task(Shell& shell, double time = 0);
 void set_time(Shell& shell, Row<Tasks> task, double time);
 
-/// Empty, or a sentence naming the first rule that is broken: links symmetric, one fan a vertex, a hinge on each
-/// interior edge with the right four vertices, edge kinds, crack edges in pairs of equal place (no T-junctions), tips
-/// only at the ends of cracks, masses by elements and by vertices equal to the first to 1e-12.
+/// Empty, or a sentence naming the first rule that is broken. Links are symmetric, a vertex has one fan, and each
+/// interior edge has its kind, and a hinge with the right four vertices. Crack edges come in pairs of equal place (no
+/// T-junctions), and tips are only at the ends of cracks. Masses by elements and by vertices are equal to the first to
+/// 1e-12.
 std::string broken_rule(const Shell& shell);
 /// Components over neighbour links.
 std::vector<uint32_t> components(ShellView shell);  // of each element, numbered by smallest element

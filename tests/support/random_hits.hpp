@@ -43,7 +43,7 @@ struct Watch {
     uint32_t breaks = 0;
     double most_kept = 0, worst_momentum = 0, worst_mass = 0;
 
-    /// To be called while the world is empty but for the crumbs of earlier hits, whose energy is left out.
+    /// To be called while the world is empty but for the debris of earlier hits, whose energy is left out.
     void begin_hit(const World& world) { of_old_debris = measure_matter(world).kinetic_energy; }
     /// To be called after each system.
     void look(const World& world, const std::string& system);
@@ -56,7 +56,7 @@ struct Throw {
 /// A body that flies and turns, and a ball that catches up with it, towards a place within half its size. `spawn` says
 /// how the body breaks.
 Throw throw_at(World& world, const Shape& shape, Draw draw, SpawnSettings spawn = {});
-/// Removes all shells and the model; a step later the world is empty but for crumbs.
+/// Removes all shells and the model; a step later the world is empty but for debris.
 void clear_away(World& world, ModelId model);
 /// Such a throw, and 16 frames; then the world is empty again.
 void hit_once(World& world, const Shape& shape, Draw draw, SpawnSettings spawn = {});

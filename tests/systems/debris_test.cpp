@@ -1,4 +1,4 @@
-// Crumbs: what they keep of the piece that they were, and what they fall on.
+// // Debris: what it keeps of the piece that it was, and what it falls on.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -33,10 +33,10 @@ Vec3d closest_on_triangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c) {
     return best;
 }
 
-/// Half the local thickness as A2 of the note defines it: radius of the largest ball that touches the surface at the
-/// vertex, its centre inward of it, and holds no point of a face that looks the other way (m_q . m_v < -0.1). Over all
-/// triangles, each until its closest point stays; the generator's search by boxes has no part in it. Stops when the
-/// ball is smaller than `enough`.
+/// Half the local thickness: the radius of the largest ball that touches the surface at the vertex, its centre inward
+/// of it. It holds no point of a face that looks the other way (m_q . m_v < -0.1). Over all triangles, each until its
+/// closest point stays; the generator's search by boxes has no part in it. Stops when the ball is smaller than
+/// `enough`.
 double half_thickness(const Surface& s, uint32_t vertex, Vec3d inward, double enough = 0) {
     const Vec3d v = s.positions[vertex];
     double r = s.diagonal;

@@ -152,8 +152,8 @@ double bending_ratio(Board& board, double degrees) {
 }
 
 // Triangles at the border have hinges on two sides and know half of a curvature: their share goes with the edge's
-// length. On irregular triangles the curvature of the note's B3 is not exact: with a jitter of a fifth of an edge a
-// strip across the grain is up to 1.3 times as stiff as it should be, and one at 30 degrees 1.4 times.
+// length. On irregular triangles the curvature of the hinges is not exact. With a jitter of a fifth of an edge a strip
+// across the grain is up to 1.3 times as stiff as it should be, and one at 30 degrees 1.4 times.
 TEST(Wood, AStripOfEvenTrianglesBendsWithTheModulusOfItsOwnDirection) {
     for (const double degrees : {0.0, 90.0, 30.0}) {
         double away[2];

@@ -61,8 +61,8 @@ struct FirstCrack {
     float force = 0;  // N, the most that the contact has passed until then
 };
 /// Of a fall on a floor, when the first crack starts. Up to it the hidden run is homogeneous of degree one in the speed
-/// (linear shell, springs without a gap that only push), so one run that may not crack gives it exactly: the speed, and
-/// the force, over the largest ratio of stress to limit.
+/// (linear shell, springs without a gap that only push). So one run that may not crack gives it exactly. It is the
+/// speed, and the force, over the largest ratio of stress to limit.
 FirstCrack first_crack(RunRows& state, Row<Structures> shell, Vec3 down);
 
 }  // namespace cullet

@@ -34,8 +34,8 @@ void build_hulls(ShellView shell, Sheet sheet = Sheet::None);
 /// of both are within a twentieth, its points are copied. Elsewhere same_cell becomes kNone: the cell waits.
 /// `have_cells` false: the body had one shape, and no cell of it hulls.
 void copy_piece_hulls(ShellView piece, ShellView parent, float parents_margin, bool have_cells);
-/// Of what is left of the body, its elements in any order, into its own empty range of points: those of `before` (whose
-/// rows of points are `points`) where no element of the cell is changed or dead; same_cell as above.
+/// Of what is left of the body, its elements in any order, into its own empty range of points. They are those of
+/// `before` (whose rows of points are `points`) where no element of the cell is changed or dead; same_cell as above.
 void copy_rest_hulls(ShellView shell, Range points, ShellView before, bool have_cells = true);
 /// Of a piece, and of what is left of a body, that has one shape for all of it (piece_shape.hpp): its cells have none.
 void empty_piece_cells(ShellView piece);

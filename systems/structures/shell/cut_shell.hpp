@@ -24,13 +24,13 @@ struct CutReport {
     bool is_full = false;       // there was no room for all: what was cut stays cut
 };
 
-/// Puts vertices where edges cross the surface. Within kSnap of an end, or where C5's limits on the shape forbid it, an
-/// end is as good, but only if it lies near to the surface, seen from the smaller part: large triangles are parted
-/// where the cut says, into slivers if need be. Then opens every edge between two elements whose middles lie on
-/// different sides, and gives every fan its vertex. What ends inside of the wall is a crack tip. `pins`: the body's
-/// boxes; a vertex at the cut stands for where the cut runs on the side that its elements are on, and is pinned when a
-/// box holds that place. Needs no stiffness, and lets go of what the shell has assembled: a later hit assembles it
-/// anew. O(elements).
+/// Puts vertices where edges cross the surface. Within kSnap of an end, or where the limits on the shape forbid it
+/// (can_insert), an end is as good, but only if it lies near to the surface, seen from the smaller part. Large
+/// triangles are parted where the cut says, into slivers if need be. Then opens every edge between two elements whose
+/// middles lie on different sides, and gives every fan its vertex. What ends inside of the wall is a crack tip. `pins`:
+/// the body's boxes; a vertex at the cut stands for where the cut runs on the side that its elements are on, and is
+/// pinned when a box holds that place. Needs no stiffness, and lets go of what the shell has assembled: a later hit
+/// assembles it anew. O(elements).
 CutReport cut_shell(ShellView shell, const CutSurface& surface, const PinBoxes& pin_boxes, Range pins,
                     const CutRepair& repair);
 

@@ -35,12 +35,12 @@ DrawnCount count_drawn(ShellView shell);
 uint32_t most_view_rows(ShellView shell);
 uint32_t most_view_rows(ShellView shell, const FragmentPart& part);
 
-/// Writes the mesh into these ranges of ViewVertices and ViewIndices (capacities at least as counted), sets their
-/// counts and returns the runs: triangle s has vertices and indices 3 s to 3 s + 2, and elements stand in rising order
-/// within a run. Outer corners have the game's normals and uvs; inner
-/// ones the same uvs and the normals turned round, or the triangle's own where the inner wall runs another way; rims
-/// and cracks flat normals and uv = (way along the free border, depth) in m. Each triangle has corners of its own.
-/// Nothing allocates. About 0.3 microseconds an element.
+/// Writes the mesh into these ranges of ViewVertices and ViewIndices (capacities at least as counted). Sets their
+/// counts and returns the runs. Triangle s has vertices and indices 3 s to 3 s + 2, and elements stand in rising order
+/// within a run. Outer corners have the game's normals and uvs. Inner ones have the same uvs and the normals turned
+/// round, or the triangle's own where the inner wall runs another way. Rims and cracks have flat normals and uv = (way
+/// along the free border, depth) in m. Each triangle has corners of its own. Nothing allocates. About 0.3 microseconds
+/// an element.
 DrawnCount draw_shell(ShellView shell, DrawnRows to, Range& view_vertices, Range& view_indices);
 /// The same into the body's own ranges and run columns; its stamp becomes another.
 void draw_body(BodyRows& state, Row<Bodies> body);

@@ -248,8 +248,8 @@ void kick_points(ShellView shell, uint32_t first_twin, const Explosion& explosio
     });
 }
 
-// A ring at height z of the unit ball sees the centre under the cosine (D z - a) / r, r^2 = D^2 + a^2 - 2 D a z, and
-// has the area 2 pi a^2 dz; of its impulse the share z is along the axis.
+// A ring at height z of the unit ball sees the centre under the cosine (D z - a) / r, r^2 = D^2 + a^2 - 2 D a z. It has
+// the area 2 pi a^2 dz. Of its impulse the share z is along the axis.
 double impulse_on_ball(double distance, double ball_radius, float reach, float strength) {
     constexpr int kRings = 32;
     double sum = 0;

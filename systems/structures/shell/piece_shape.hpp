@@ -1,8 +1,8 @@
 // What stands for a new piece in the rigid world. This is the one place that says the rule:
 //
-//   box    if volume of the tightest box / volume of the solid < 1.15,
+//   box    if volume of the tightest box / volume of the solid < 1.15.
 //   hull   if volume of the convex hull / volume of the solid < 1.4 and its 32 best points leave out less than the
-//          margin,
+//          margin.
 //   cells  otherwise: convex groups of its elements (cell_hulls.hpp).
 //
 // The solid is what is drawn, its volume mass / density: the sum of its prisms. Volumes are taken in double, of the
@@ -12,9 +12,9 @@
 //
 // Only pieces of at most kMostWholeElements are measured. What keeps a body's handle chooses anew when it breaks again;
 // with more elements than that its cells go on alone, so that no hit costs what goes with the body. Intact bodies have
-// cells, and so has what stands pinned: others come to rest on it, in notches too, which one hull would fill (pieces of
-// a wall hover by 3 mm and more in 5 of 12 runs over hulls of what stands, in 3 over its cells), and its cells cost
-// nothing while it stands.
+// cells, and so has what stands pinned. Others come to rest on it, in notches too, which one hull would fill. Pieces of
+// a wall hover by 3 mm and more in 5 of 12 runs over hulls of what stands, in 3 over its cells. Its cells cost nothing
+// while it stands.
 #pragma once
 #include "components/body_rows.hpp"
 

@@ -111,8 +111,8 @@ struct MotionSums {
     }
 };
 
-/// Of vertices that move as one rigid body does: u = a + w x p with a = v - w x c, so that sum m u = m a + w x S and
-/// sum m p x u = S x a + J w, where S = sum m p and J is the inertia about the origin.
+/// Of vertices that move as one rigid body does: u = a + w x p with a = v - w x c. So sum m u = m a + w x S and sum m p
+/// x u = S x a + J w, where S = sum m p and J is the inertia about the origin.
 MotionSums sums_of_rigid(const VertexSums& of, const RestMotion& rest) {
     const Vec3d w = rest.spin, a = rest.velocity - cross(w, rest.centre), turned = cross(w, of.first);
     const Vec3d spun = inertia_of(of.second) * w;

@@ -1,4 +1,4 @@
-// What a game does about old fragments: list, remove, freeze, merge; and crumbs that fade.
+// What a game does about old fragments: list, remove, freeze, merge; and debris that fades.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// A load that no piece of a solid bears parts it along planes, without asking where it is weakest: what is pressed
+// A load that no piece of a solid bears parts it along planes, without asking where it is weakest. What is pressed
 // together by those that yield to nothing has no time for that, and may be too small for a solve.
 #pragma once
 #include "systems/models/lattice/crack/break_run.hpp"

@@ -20,7 +20,7 @@ struct HitOfModel {
 
 /// Mean edge, m, with which a hit would take `wanted` units: vertices go with the inverse square of the edge and steps
 /// with its inverse, so units with the inverse cube. Where edges are shorter than the wall is thick hinges limit the
-/// step, and units fall up to the fourth power: what is asked for is then on the safe side, by a fifth of the units for
+/// step, and units fall up to the fourth power. What is asked for is then on the safe side, by a fifth of the units for
 /// a vase of 5 mm and edges of 4.5 mm. Of a local hit only the steps count until the body is small enough for a whole
 /// one.
 double edge_for_units(const HitOfModel& hit, uint64_t wanted);

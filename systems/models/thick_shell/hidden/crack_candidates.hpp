@@ -36,9 +36,8 @@ struct Candidate {
     float ratio;  // stress over its limit, > 1
 };
 
-/// Candidates of one check. A body of 3,000 vertices has 0 to 20; when more than fit would pass, the starts' limits are
-/// raised by a quarter until the list fits, so that the most stressed ones are kept and the others wait for the next
-/// check.
+/// Candidates of one check. A body of 3,000 vertices has 0 to 20. When more than fit would pass, the starts' limits are
+/// raised by a quarter until the list fits. So the most stressed ones are kept and the others wait for the next check.
 struct Candidates {
     static constexpr uint32_t kMost = 2048;
     uint32_t count = 0;

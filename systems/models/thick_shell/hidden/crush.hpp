@@ -1,10 +1,10 @@
-// Struck material crushes (thick shell note, section 6.3, gone on with): a patch spring is elastic up to the force that
-// its share of the bearing area can take, then gives way at that force, and what has been crushed hardly pushes back. A
-// purely elastic patch throws a ball of 30 kg at 10 m/s back from a brick wall at 3.6 m/s, with the plug already out.
+// Struck material crushes. A patch spring is elastic up to the force that its share of the bearing area can take. Then
+// it gives way at that force, and what has been crushed hardly pushes back. A purely elastic patch throws a ball of 30
+// kg at 10 m/s back from a brick wall at 3.6 m/s, with the plug already out.
 //
 // Loading: F = k d up to the yield force Y; beyond, F = Y and the crush c = d - Y/k grows. Unloading and loading again
 // below Y: F = Y - k_u (c + Y/k - d), never pulling. k_u goes with the crush from k to k/e^2, e the material's
-// restitution, which it reaches at c = Y/k (Walton and Braun 1986, with the ramp of Luding 2008), so the restitution of
+// restitution, which it reaches at c = Y/k (Walton and Braun 1986, with the ramp of Luding 2008). So the restitution of
 // a blow falls steadily from 1 at the yield speed. Returning e^2 of the work below the yield as well was tried: it
 // moved the wall's thresholds by 45 %.
 #pragma once

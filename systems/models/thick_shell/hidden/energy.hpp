@@ -19,9 +19,9 @@ TaskEnergy task_energy(RunRows& state, Row<Tasks> task);
 /// B7's redo criterion: energy above 1.05 of the start and of the work put in, or not finite.
 bool is_blown_up(const TaskEnergy& energy, double start_energy);
 
-/// Parts of the above, for one chunk of rows, in this order: kinetic energy of vertices [first, first + count), which
-/// also writes u into side `side` of the probe; membrane_energy (stress_check.hpp), which writes the slopes; bending
-/// energy of the elements' halves of their hinges.
+/// Parts of the above, for one chunk of rows, in this order. First the kinetic energy of vertices [first, first +
+/// count), which also writes u into side `side` of the probe. Then membrane_energy (stress_check.hpp), which writes the
+/// slopes. Last the bending energy of the elements' halves of their hinges.
 double kinetic_energy(ShellView shell, uint32_t side, uint32_t first, uint32_t count);
 double bending_energy(ShellView shell, uint32_t first, uint32_t count);
 

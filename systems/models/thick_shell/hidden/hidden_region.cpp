@@ -17,9 +17,9 @@ namespace {
 /// border; nearer than the second nothing is cut.
 constexpr uint32_t kHeldRings = 2, kUncutRings = kHeldRings + kCutOutBorderRings;
 /// Of the stress that starts a crack: near the border it makes the region grow. Before the first crack waves that go on
-/// may still break something far away, at a free edge or where the wall is weak: on vases of 14,000 vertices that stay
-/// whole on a region, up to 12 m/s, the whole body cracks from 2.6 m/s on. What has cracked where it was hit lets
-/// little through.
+/// may still break something far away, at a free edge or where the wall is weak. Vases of 14,000 vertices stay whole on
+/// a region, up to 12 m/s, where the whole body cracks from 2.6 m/s on. What has cracked where it was hit lets little
+/// through.
 constexpr float kGrowsAt = 0.1f, kGrowsOnceCrackedAt = 0.5f;
 
 template <class Table>

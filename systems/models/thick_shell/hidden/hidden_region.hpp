@@ -1,9 +1,9 @@
-// Hidden runs of large bodies work on a cut-out round the hit (thick shell note, 6.2). The rest of the body is rigid:
-// it moves as one body that holds the two outermost rings of the cut-out's vertices, with the mass and inertia of all
-// that does not move by itself, so that the run keeps momentum as a whole one does.
+// Hidden runs of large bodies work on a cut-out round the hit. The rest of the body is rigid. It moves as one body that
+// holds the two outermost rings of the cut-out's vertices, with the mass and inertia of all that does not move by
+// itself. So the run keeps momentum as a whole one does.
 //
 // Nothing is cut near the border. What wants to crack there, or comes to a share of the stress that starts cracks,
-// makes the run begin again on a cut-out of twice as many vertices, in the next frame; what would be more than half of
+// makes the run begin again on a cut-out of twice as many vertices, in the next frame. What would be more than half of
 // the body is the whole of it. So a crack goes on as it would have, and what a hit costs goes with its reach. The share
 // is a tenth before the first crack, and half after it: blows just hard enough to break a body do so anywhere in it,
 // those that are harder break it where they hit.

@@ -4,11 +4,11 @@
 
 namespace cullet {
 
-/// The crack vertex that a tip should turn to: within 1.5 l of where its next step of length `step` in unit `direction`
-/// would end, at most 60 degrees off that direction and with a normal within 60 degrees; its own crack is ignored while
-/// the tip is within 3 l of its root, or the arms of a star would close at once. The nearest to the step's end, then
-/// the lowest vertex; kNone when there is none. One pass over the crack flags, a byte a vertex. Without joining, cracks
-/// end as dead ends and give half the pieces (thick shell note C2).
+/// The crack vertex that a tip should turn to. It is within 1.5 l of where its next step of length `step` in unit
+/// `direction` would end, at most 60 degrees off that direction and with a normal within 60 degrees. Its own crack is
+/// ignored while the tip is within 3 l of its root, or the arms of a star would close at once. The nearest to the
+/// step's end, then the lowest vertex; kNone when there is none. One pass over the crack flags, a byte a vertex.
+/// Without joining, cracks end as dead ends and give half the pieces.
 uint32_t find_crack_ahead(ShellView shell, uint32_t tip, Vec3 direction, float step);
 
 /// Bans starts within 3 l of this place for the rest of the run.

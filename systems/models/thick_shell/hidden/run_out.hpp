@@ -4,12 +4,12 @@
 
 namespace cullet {
 
-/// For a run whose body is in pieces: each crack tip that has a border or a crack ahead, within 15 degrees of its
-/// heading or else within 35, and nearer than the material's `run_out` times the crack's own length (three mean edges
-/// at least), goes on straight to it. What holds such a ligament in the model is that the run is over; in a wall that
+/// For a run whose body is in pieces. A crack tip that has a border or a crack ahead, within 15 degrees of its heading
+/// or else within 35, goes on straight to it. It has to be nearer than the material's `run_out` times the crack's own
+/// length (three mean edges at least). What holds such a ligament in the model is that the run is over; in a wall that
 /// falls, its pieces' weight breaks it. Tips without such an end stay where they are, as hairlines. Masses and
 /// velocities are kept as by every cut. Tips in order of their rows; O(tips x vertices), all in the frame in which the
-/// run ends: no units are asked for. Returns whether the mesh is another now: a vertex may come on an edge that is not
+/// run ends: no units are asked for. Returns whether the mesh is another now. A vertex may come on an edge that is not
 /// cut after all, and its elements belong to no part that was found before.
 bool run_out_cracks(RunRows& state, Row<Tasks> task);
 

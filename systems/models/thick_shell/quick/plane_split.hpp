@@ -24,9 +24,9 @@ struct PlaneCrossing {
     bool is_full = false;                // one was passed over because the shell has no room
 };
 /// Of the ring's far edges that the plane crosses farther than a fifth from both ends the one of least (lower end,
-/// higher end), if a vertex may be put there: no crack, no new triangle with an angle below 15 degrees or less than
-/// 0.05 of the area of the one that it is part of, or of the cooked mesh's mean one; no ring too large. After
-/// insert_vertex, ask again.
+/// higher end), if a vertex may be put there. The edge must be no crack, and no ring too large. No new triangle may
+/// have an angle below 15 degrees, or less than 0.05 of the area of the one that it is part of, or of the cooked mesh's
+/// mean one. After insert_vertex, ask again.
 PlaneCrossing find_plane_crossing(ShellView shell, uint32_t vertex, Vec3 normal);
 
 }  // namespace cullet

@@ -176,12 +176,12 @@ Chunk springs_of_chunk(const RegionView& region, uint32_t first_row) {
 }
 
 // The strain limit is that of blows on faces, which bend a sheet more than they stretch it. A blow along the sheet
-// stretches it at once, by v / c as a bar's end (times the root of s here: the run's velocities are true, its c is
-// not), and a wall of one layer by 40 times what a ball on its face does: with the limit of faces its pieces, which
-// meet at their rims, broke each other at 2 cm/s. So each contact asks for what its part along the sheet stretches at
-// its speed, at most at that of falls that crack the body, as cooking found; the limit is no less. That the struck
-// vertex is near a border does not tell: pieces' hulls touch at places whose nearest vertex is well inside a face, and
-// balls strike faces beside a border. With several contacts the largest counts, for all of the region.
+// stretches it at once, by v / c as a bar's end. (Times the root of s here: the run's velocities are true, its c is
+// not.) It stretches a wall of one layer by 40 times what a ball on its face does. With the limit of faces its pieces,
+// which meet at their rims, broke each other at 2 cm/s. So each contact asks for what its part along the sheet
+// stretches at its speed, at most at that of falls that crack the body, as cooking found; the limit is no less. That
+// the struck vertex is near a border does not tell: pieces' hulls touch at places whose nearest vertex is well inside a
+// face, and balls strike faces beside a border. With several contacts the largest counts, for all of the region.
 float limit_along_sheet(const RunRows& state, Row<Tasks> task, const ShellView& shell, float root) {
     const TaskContacts& contacts = state.task_contacts;
     const uint32_t material = state.structures.material[shell.structure];

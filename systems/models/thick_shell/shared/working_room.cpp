@@ -38,7 +38,7 @@ uint32_t spare_vertices(const ShellView& source) {
 
 }  // namespace
 
-// Cracks that run on across the whole body take a copy and an inserted vertex or two an edge: with the hidden run's
+// Cracks that run on across the whole body take a copy and an inserted vertex or two an edge. With the hidden run's
 // spare a wall of 823 vertices was full after seven of them, and the rest ended where it was.
 ShellRoom quick_room(const MaterialRows& state, Row<Materials> material, uint32_t vertices, uint32_t elements,
                      uint32_t hinges) {

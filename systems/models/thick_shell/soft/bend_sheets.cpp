@@ -1,6 +1,6 @@
 // Sheets bend: where the material gives its own bending stiffness D (cloth), the hinges that one layer of springs
 // lacks. Hinge of edge (a, b) with opposite corners c and d, k_h = D L^2 / (A1 + A2) (thick shell note B3), in a form
-// that holds for any turn of the sheet and any fold (Bergou et al. 2006): with the cotangents of the four angles at the
+// that holds for any turn of the sheet and any fold (Bergou et al. 2006). With the cotangents of the four angles at the
 // edge as they are at rest, K = (cot b1 + cot b2, cot a1 + cot a2, -cot a1 - cot b1, -cot a2 - cot b2),
 //     E = D |K x|^2 / (2 (A1 + A2)),  F_i = -D K_i (K x) / (A1 + A2).
 // K sums to 0 and each F_i lies along K x: momentum and angular momentum are exact. |K x| = 2 L sin(theta / 2), and at

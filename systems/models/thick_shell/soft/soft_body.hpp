@@ -27,11 +27,11 @@ bool soft_material(const MaterialRows& state, Row<Materials> material, SoftMater
 Row<Structures> copy_soft_shell(ShellRows& state, Row<Structures> source, const char** full);
 
 /// The body's shell, which it does not share, gets springs, and the body a row. One layer where the material has its
-/// own bending stiffness (cloth), else a sandwich. A frame's step is cut into as many substeps as the true modulus
-/// asks for, 8 to 1,000, and no more than `units` (a frame's) allow; where that is too few, the springs are softened
-/// (B7): E_eff = E (stable step / step)^2, s = E / E_eff, strains at yield and break sqrt(s) times the true ones, but
-/// no spring is shown stretched by more than the true strain at break, or twice its length where that is more.
-/// Allocates rows alone.
+/// own bending stiffness (cloth), else a sandwich. A frame's step is cut into as many substeps as the true modulus asks
+/// for, 8 to 1,000, and no more than `units` (a frame's) allow. Where that is too few, the springs are softened: E_eff
+/// = E (stable step / step)^2, s = E / E_eff. Strains at yield and break are sqrt(s) times the true ones. But no spring
+/// is shown stretched by more than the true strain at break, or twice its length where that is more. Allocates rows
+/// alone.
 Result<Row<SoftBodies>> make_soft(SoftRows& state, Row<Bodies> body, const LayerSettings& layers, float step_seconds,
                                   uint64_t units);
 /// A row for a piece of `parent`, whose shell has springs already: like it, rigid so far, and called to wake.

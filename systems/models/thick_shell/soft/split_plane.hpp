@@ -15,11 +15,11 @@ struct PlaneSplit {
     uint32_t touched[kMostSplitTouched];
 };
 
-/// Splits vertex v along the plane through it with this normal, at the places that `view` has now: elements of its
-/// ring are signed by their centroids; two runs of them are parted by the cut pair (a cycle) or single cut (a chain)
-/// with the least area on the wrong side, so that rings that are not convex are no special case. Ends that lay on a
-/// border or crack are parted too, the others become tips. The mesh alone: springs and masses of the copies are
-/// rebuild_springs' affair. Not done: one element, or no room for three vertices.
+/// Splits vertex v along the plane through it with this normal, at the places that `view` has now. Elements of its ring
+/// are signed by their centroids. Two runs of them are parted by the cut pair (a cycle) or single cut (a chain) with
+/// the least area on the wrong side. So rings that are not convex are no special case. Ends that lay on a border or
+/// crack are parted too, the others become tips. The mesh alone: springs and masses of the copies are rebuild_springs'
+/// affair. Not done: one element, or no room for three vertices.
 PlaneSplit split_plane(const SpringView& view, uint32_t vertex, Vec3 normal);
 
 }  // namespace cullet

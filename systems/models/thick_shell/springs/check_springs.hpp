@@ -6,10 +6,10 @@
 
 namespace cullet {
 
-/// What the springs of a state must be before a step may follow their indices: rows of live shells, one each, with
-/// ranges of the shell's size, ends that are vertices and corners of their elements' edges, lists that lie in slots of
-/// their own and name the springs' other ends, numbers that are finite. Ranges have been held against their pools. The
-/// error is one sentence that begins with `name` and ends with `advice`.
+/// What the springs of a state must be before a step may follow their indices. They are rows of live shells, one each,
+/// with ranges of the shell's size and finite numbers. Their ends are vertices and corners of their elements' edges.
+/// Their lists lie in slots of their own and name the springs' other ends. Ranges have been held against their pools.
+/// The error is one sentence that begins with `name` and ends with `advice`.
 Result<void> check_springs(const ShellRows& state, const std::string& name, const std::string& advice);
 
 }  // namespace cullet

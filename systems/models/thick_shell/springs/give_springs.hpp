@@ -25,10 +25,10 @@ struct SpringSettings {
     float spare = 0;  // rows for springs to come, beside an eighth of those there are: a share of them, 0 to 4
 };
 
-/// Gives the shell springs along its edges by the area rule (B3): k = E h (sum of areas of the triangles at the edge) /
-/// L0^2, h the mean depth of both ends; two layers share h and are tied as `layout` says. Masses are those of B1.
-/// Nothing moves yet: start_springs comes next. Refused with a sentence: settings out of range, a shell that has
-/// springs, no room (names the limit). Allocates nothing but rows. O(elements).
+/// Gives the shell springs along its edges by the area rule (Van Gelder): k = E h (sum of areas of the triangles at the
+/// edge) / L0^2, h the mean depth of both ends. Two layers share h and are tied as `layout` says. A vertex has a third
+/// of the mass of its elements. Nothing moves yet: start_springs comes next. Refused with a sentence: settings out of
+/// range, a shell that has springs, no room (names the limit). Allocates nothing but rows. O(elements).
 Result<Row<ShellSprings>> give_springs(ShellRows& state, Row<Structures> shell, const SpringSettings& settings);
 
 /// A spring given by hand, between two vertices of a shell.

@@ -14,9 +14,9 @@ namespace cullet {
 bool rebuild_springs(const SpringView& view, std::span<const uint32_t> touched);
 
 /// The element was re-meshed: its corners are not those that its springs were made for. To be called for each element
-/// whose corners changed, before any vertex is split. An edge whose other element still has a spring keeps it; for the
+/// whose corners changed, before any vertex is split. An edge whose other element still has a spring keeps it. For the
 /// rest rebuild_springs makes new ones at their length at rest, which have flowed as those of their elements had
-/// (carry_flow.hpp), and rows that no element has are cleared: no ends, no stiffness.
+/// (carry_flow.hpp). Rows that no element has are cleared: no ends, no stiffness.
 void forget_springs(const SpringView& view, uint32_t element);
 /// Springs of elements that left the shell with a piece: their rows are cleared. Slots of its vertices, which have no
 /// mass any more, keep what they say until their pack is written anew.

@@ -29,8 +29,8 @@ double longest_step(double stiffness, double damping, double inverse_mass) {
 
 }  // namespace
 
-// Row sums of the stiffness matrix over the mass of the point: a spring has two blocks of k in a row, a mid spring four
-// of k / 4, a shear pair four of k, the gradients of e1 - e2 being unit vectors. Damping is along springs alone.
+// Row sums of the stiffness matrix over the mass of the point. A spring has two blocks of k in a row, a mid spring four
+// of k / 4, a shear pair four of k. The gradients of e1 - e2 are unit vectors. Damping is along springs alone.
 float stable_spring_step(const SpringView& view) {
     const ShellRows& state = view.state;
     const LayerSprings& layers = state.layer_springs;

@@ -15,11 +15,10 @@ struct RigidMotion {
 /// moving as the rigid body does; pinned points stand still. The working frame has its origin at the body's, so that
 /// floats hold small numbers far from the world's. No spring is closing; steps is 0.
 void start_springs(const SpringView& view, const RigidMotion& motion);
-/// The pose that fits the points best (least squares by mass of both layers' middles; points on one line or in one
-/// place leave it open, and get some turn that fits them), the velocity and spin that have the points' momentum and
-/// angular momentum, the spin about a line that all points lie on being 0; what remains is the shape:
-/// Vertices.displacement, in the body frame, of the outer layer, and Twins.through of the inner one. Vertices.velocity
-/// is cleared.
+/// The pose that fits the points best, by least squares by mass of both layers' middles. Points on one line or in one
+/// place leave it open, and get some turn that fits them. The velocity and spin have the points' momentum and angular
+/// momentum; the spin about a line that all points lie on is 0. What remains is the shape: Vertices.displacement, in
+/// the body frame, of the outer layer, and Twins.through of the inner one. Vertices.velocity is cleared.
 RigidMotion stop_springs(const SpringView& view);
 /// From the outer point to the inner one, body frame, as the springs left it, or as they were cooked. Two layers only.
 Vec3 through_at_rest(const SpringView& view, uint32_t vertex);

@@ -8,10 +8,10 @@
 namespace cullet {
 
 /// Energy 1/2 sum_kl H_kl theta_k theta_l over the hinges of a triangle's edges. The curvature is that of the stress
-/// check (note B3), kappa = sum_k theta_k L_k / (2A) p_k p_k^T, and the energy A h^3/12 kappa.C kappa / 2. Hinges by
-/// themselves (k_h = D L^2/(A1+A2)), which are this without the products of different hinges, hold for one D in all
-/// directions: on an equilateral mesh they make wood five times too stiff across the grain, with any choice of D by the
-/// edge's direction.
+/// check, kappa = sum_k theta_k L_k / (2A) p_k p_k^T, and the energy A h^3/12 kappa.C kappa / 2. Hinges by themselves
+/// (k_h = D L^2/(A1+A2)), which are this without the products of different hinges, hold for one D in all directions. On
+/// an equilateral mesh they make wood five times too stiff across the grain, with any choice of D by the edge's
+/// direction.
 struct BendingTerms {
     double h[3][3] = {};  // N m, 0 where an edge has no hinge
     uint32_t hinge[3];    // of the shell, or kNone

@@ -1,8 +1,8 @@
 // Stress of both faces of every triangle (thick shell note C1): sigma = C (eps -+ (h/2) kappa), outer face minus. Two
 // passes over the elements, the second after all of the first; each may run in chunks, on any threads, in any order.
 //
-// A hinge's angle is the sum of the slopes of its two triangles against the edge, so the first pass, which has a
-// triangle's corners in registers, gives both its strain and three slopes, and the second reads the other three where
+// A hinge's angle is the sum of the slopes of its two triangles against the edge. So the first pass, which has a
+// triangle's corners in registers, gives both its strain and three slopes. The second reads the other three where
 // Elements.other_slope says. A pass over hinges that gathers four vertices each took as long as the rest; slopes
 // scattered to the hinges instead of gathered across them cost a quarter more.
 //

@@ -23,10 +23,10 @@ struct PlaneStiffness {
     }
 };
 
-/// In unit axes x, y of a plane. Compliances along and across the grain's projection first: a plane that the grain
+/// In unit axes x, y of a plane. Compliances along and across the grain's projection come first. A plane that the grain
 /// leaves at an angle has those of the tensor turned about the axis across (Lekhnitskii, Anisotropic Plates, 1968,
-/// section 9; nu and the transverse shear taken as those of the plane along and across). Then the turn in the plane. A
-/// plane upright on the grain is isotropic with the modulus across.
+/// section 9). nu and the transverse shear are taken as those of the plane along and across. Then the turn in the
+/// plane. A plane upright on the grain is isotropic with the modulus across.
 inline PlaneStiffness grain_stiffness(const GrainModuli& m, Vec3d x, Vec3d y) {
     const double gx = dot(m.grain, x), gy = dot(m.grain, y);
     const double in_plane = gx * gx + gy * gy;  // squared cosine of the grain's angle to the plane

@@ -16,10 +16,9 @@ inline constexpr uint32_t kPairCellVertices = kPairCellPacks * kLanes;
 
 /// Cells of the collision shape from which on a shell stores pairs once: about 48 vertices each, so 50,000 vertices.
 /// The number of cells stays while the shell has stiffness, the number of vertices does not. A pair stored once costs
-/// more work than two rows (16.6 against 11 to 12 ns a vertex at 11,000 vertices, whose 5 MB of rows come from L3 where
-/// it was measured), so it can pay only where rows outgrow L3 as well: 98,000 vertices, 28 against 45
-/// MB. There the bare kernel was 1.2 to 2.3 times faster with pairs once, on a machine so busy that this wants
-/// measuring again.
+/// more work than two rows: 16.6 against 11 to 12 ns a vertex at 11,000 vertices, whose 5 MB of rows come from L3 where
+/// it was measured. So it can pay only where rows outgrow L3 as well: 98,000 vertices, 28 against 45 MB. There the bare
+/// kernel was 1.2 to 2.3 times faster with pairs once, on a machine so busy that this wants measuring again.
 inline constexpr uint32_t kPairedCells = 1050;
 
 /// For tests, which take small shells through a world this way: the bound in place of kPairedCells, while no shell has

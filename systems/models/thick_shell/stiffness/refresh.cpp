@@ -13,8 +13,8 @@ namespace cullet {
 
 namespace {
 
-/// A grain couples the hinges of a triangle: what changes at a vertex changes the rows of all vertices that a triangle
-/// with a hinge at it holds, cut off ones too, because both ends of a cut edge are among the rows.
+/// A grain couples the hinges of a triangle. What changes at a vertex changes the rows of all vertices that a triangle
+/// with a hinge at it holds. Cut off ones are among them, because both ends of a cut edge are among the rows.
 struct WideRows {
     static constexpr uint32_t kMostElements = 1024;  // more than that is about as much as the whole of most bodies
     uint32_t element_count = 0, count = 0;

@@ -11,8 +11,8 @@
 namespace cullet {
 namespace {
 
-// What steps take, ns: a tetrahedron and a triangle looked at for the region; a point laid on the grid; a polygon cut,
-// and joined with all others; a loop; a triangle divided, a polygon of it; a triangle that keeps whole; one numbered.
+// What steps take, ns. A tetrahedron and a triangle looked at for the region, a point laid on the grid, a polygon cut
+// and joined with all others, a loop. A triangle divided, a polygon of it, a triangle that keeps whole, one numbered.
 constexpr double kNsRegion = 120, kNsGrid = 40, kNsPolygon = 700, kNsJoin = 300, kNsLoop = 300, kNsDividing = 700,
                  kNsWhole = 40, kNsNumber = 350;
 constexpr double kMostNs = 5e5;  // of a step

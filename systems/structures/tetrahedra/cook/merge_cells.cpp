@@ -123,8 +123,8 @@ class Merger {
     std::priority_queue<Small, std::vector<Small>, std::greater<>> queue_;
 };
 
-// A crumb of no volume that hangs on nothing belongs to the nearest cell: its triangles must belong somewhere.
-void adopt_empty_cells(const CutCells& raw, Merger& merger, std::vector<uint32_t>& root) {
+// A scrap of no volume that hangs on nothing belongs to the nearest cell: its triangles must belong somewhere.
+void adopt_scraps(const CutCells& raw, Merger& merger, std::vector<uint32_t>& root) {
     std::vector<double> volume(raw.cells.size());
     for (uint32_t c = 0; c < raw.cells.size(); ++c) volume[merger.find(c)] += raw.cells[c].sums.volume;
     for (uint32_t c = 0; c < raw.cells.size(); ++c) {
@@ -172,7 +172,7 @@ void merge_cells(const CutRequest& request, const Cut& cut, const CutCells& raw,
     const std::vector<RawBond> bonds = find_bonds(request, cut, raw);
     Merger merger(raw, bonds, settings.least_share * reference_volume(request, raw));
     std::vector<uint32_t> root(raw.cells.size());
-    adopt_empty_cells(raw, merger, root);
+    adopt_scraps(raw, merger, root);
 
     merged.assign(raw.cells.size(), kNone);
     solid.cells.clear();

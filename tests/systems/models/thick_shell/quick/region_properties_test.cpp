@@ -1,6 +1,6 @@
-// T13 of the thick shell note: without a limit nothing splits; with none to bear each interior edge of a uniform
-// stretch can, and the run still ends, its energy no larger than what was put in, with no more splits a step than it
-// may make.
+// The quick mode at its bounds. Without a limit nothing splits. With none to bear each interior edge of a uniform
+// stretch can. The run still ends, its energy no larger than what was put in, with no more splits a step than it may
+// make.
 #include <gtest/gtest.h>
 
 #include <algorithm>

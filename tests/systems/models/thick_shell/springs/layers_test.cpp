@@ -68,7 +68,7 @@ TEST(Layers, OfQuickBodiesDecideHowTheyBreakTheSameOnAnyNumberOfThreads) {
             if (threads == 1) {
                 alone = hash;
                 EXPECT_GT(shells_of(b.world).size(), 1u) << "it breaks";
-                EXPECT_NEAR(after.mass, before.mass, 1e-9);  // crumbs counted
+                EXPECT_NEAR(after.mass, before.mass, 1e-9);  // // debris counted
                 EXPECT_LE(after.kinetic_energy, before.kinetic_energy * 1.000001);
             }
             EXPECT_EQ(hash, alone) << threads << " threads";
@@ -98,8 +98,8 @@ TEST(Layers, OfAQuickHitAreKeptInSnapshots) {
     }
 }
 
-/// How far the free end of a rubber sheet, held at the other, hangs down at most under a tenth of gravity, m, over how
-/// much softer than rubber its springs are: what a frame can afford depends on the layout, too.
+/// How far the free end of a rubber sheet, held at the other, hangs down at most under a tenth of gravity, m. It is
+/// over how much softer than rubber its springs are, for what a frame can afford depends on the layout, too.
 double sag_of(const LayerSettings& layers) {
     Settings settings = soft_settings();
     settings.gravity = {0, 0, -0.981f};
