@@ -373,7 +373,7 @@ TEST(Births, WhereBothBreakTheLargerOnesLargestPieceTakesTheDifference) {
         settings.units_a_frame = budget;
         World world = two_vases(settings, 8, 9);
         const Matter before = matter_of(world);
-        Matter after = before;  // // births alone: debris that flies against a piece gives it nothing
+        Matter after = before;  // births alone: debris that flies against a piece gives it nothing
         uint32_t waited = 0;
         after_each_system(world, [&](const std::string& system) {
             const State& state = state_of(world);

@@ -1,4 +1,4 @@
-// // Debris: what it keeps of the piece that it was, and what it falls on.
+// Debris: what it keeps of the piece that it was, and what it falls on.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -218,7 +218,7 @@ TEST(Grinding, WhatIsGroundIsToldWithItsMassAndIsGone) {
         const uint32_t before = world.bodies(nullptr, 0);
         play_frame(*game);
         const StepEvents events = world.events();
-        // // A piece may lose debris and be ground in one frame.
+        // A piece may lose debris and be ground in one frame.
         std::set<uint32_t> gone, pressed;
         for (const DebrisEvent& e : events.debris)
             if (!world.is_alive(e.parent)) gone.insert(e.parent.index);

@@ -66,7 +66,7 @@ Vec3 lost_place(const std::vector<Vec3>& before, const std::vector<Vec3>& left) 
 
 TEST(WaitingBlows, APushOnWhatBecomesDebrisStrikesNothingElse) {
     Settings settings = sliced_settings();
-    settings.debris_elements = 1'000'000;  // // all but the largest piece is debris
+    settings.debris_elements = 1'000'000;  // all but the largest piece is debris
     Waiting twin(settings);
     const std::vector<Vec3> before = places_of(twin.world, twin.vase);
     for (int frame = 0; frame < 100; ++frame) twin.world.step();

@@ -210,7 +210,7 @@ TEST(WorldLimits, EveryAmountOfRoomForDrawnVerticesKeepsTheMassAndTheMeshes) {
 TEST(WorldLimits, DebrisBeyondTheLimitStayPartOfTheirParent) {
     Settings settings = small_settings();
     settings.limits.debris = 1;
-    settings.debris_share = 0.05f;  // // much debris
+    settings.debris_share = 0.05f;  // much debris
     Breakage b = vase_and_ball(settings, 12);
     EXPECT_EQ(refused_by(b, 20).count("limits.debris"), 1u);
     EXPECT_EQ(b.world.report().debris, 1u);

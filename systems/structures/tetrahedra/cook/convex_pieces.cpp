@@ -16,7 +16,7 @@ namespace {
 
 constexpr uint32_t kDirections = 98;   // to the places of a cube's surface in steps of half its half
 constexpr uint32_t kSlabs = 4;         // of the extent along an axis: three planes are tried between them
-constexpr double kLeastVolume = 1e-6;  // // of the whole: a scrap is not halved
+constexpr double kLeastVolume = 1e-6;  // of the whole: a scrap is not halved
 constexpr float kEnough = 2e-4f;       // of the extent: a point that near to a hull adds nothing
 
 struct Plane {

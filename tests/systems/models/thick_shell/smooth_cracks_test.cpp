@@ -131,7 +131,7 @@ TEST(SmoothCracks, AreOneLineForBothSides) {
             }
         }
         EXPECT_GT(moved, 20u) << c.name;
-        EXPECT_GT(met, moved / 3) << c.name;  // // the other side may be debris
+        EXPECT_GT(met, moved / 3) << c.name;  // the other side may be debris
     }
 }
 

@@ -68,7 +68,7 @@ TEST(Layers, OfQuickBodiesDecideHowTheyBreakTheSameOnAnyNumberOfThreads) {
             if (threads == 1) {
                 alone = hash;
                 EXPECT_GT(shells_of(b.world).size(), 1u) << "it breaks";
-                EXPECT_NEAR(after.mass, before.mass, 1e-9);  // // debris counted
+                EXPECT_NEAR(after.mass, before.mass, 1e-9);  // debris counted
                 EXPECT_LE(after.kinetic_energy, before.kinetic_energy * 1.000001);
             }
             EXPECT_EQ(hash, alone) << threads << " threads";
