@@ -16,7 +16,6 @@
 #include "systems/models/thick_shell/stiffness/assemble.hpp"
 #include "systems/models/thick_shell/stiffness/element_stress.hpp"
 #include "systems/models/thick_shell/stiffness/pair_cells.hpp"
-#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet::perf {
 namespace {

@@ -14,6 +14,7 @@
 #include "systems/models/thick_shell/hidden/brittle_loop.hpp"
 #include "systems/models/thick_shell/hidden/run_cost.hpp"
 #include "systems/models/thick_shell/run_hit.hpp"
+#include "systems/structures/shell/costs.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 #include "systems/structures/shell/make_piece.hpp"
 #include "systems/structures/shell/rigid_handoff.hpp"

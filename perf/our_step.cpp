@@ -1,7 +1,7 @@
 #include "perf/our_step.hpp"
 
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
-#include "systems/models/thick_shell/systems.hpp"
+#include "systems/models/thick_shell/hidden/systems.hpp"
 
 namespace cullet::perf {
 namespace {

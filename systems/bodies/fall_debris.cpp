@@ -5,8 +5,8 @@
 namespace cullet {
 namespace {
 
-constexpr float kLargeReach = 4;      // radii of the piece: what reaches less far is passed through, as other debris is
-constexpr float kBounce = 0.2f;       // of the speed that they close with, above kBounceSpeed
+constexpr float kLargeReach = 4;  // radii of the debris: what reaches less far is passed through, as other debris is
+constexpr float kBounce = 0.2f;   // of the speed that they close with, above kBounceSpeed
 constexpr float kBounceSpeed = 0.2f;  // m/s
 constexpr float kFriction = 0.5f;
 constexpr float kRestSpeed = 0.15f;   // m/s under g; where it is weaker, as much less as things fall slower

@@ -3,10 +3,13 @@
 #include "systems/bodies/blows.hpp"
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
 #include "systems/models/thick_shell/hidden/run_cost.hpp"
+#include "systems/models/thick_shell/quick/costs.hpp"
 #include "systems/models/thick_shell/quick/quick_cut_out.hpp"
 #include "systems/models/thick_shell/shared/cut_out.hpp"
 #include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/shared/working_room.hpp"
+#include "systems/models/thick_shell/stiffness/costs.hpp"
+#include "systems/structures/shell/costs.hpp"
 
 namespace cullet {
 

@@ -6,6 +6,8 @@
 #include "systems/models/thick_shell/run_hit.hpp"
 #include "systems/models/thick_shell/shared/cut_out.hpp"
 #include "systems/models/thick_shell/shared/working_room.hpp"
+#include "systems/models/thick_shell/stiffness/costs.hpp"
+#include "systems/structures/shell/costs.hpp"
 #include "systems/structures/shell/rest_of_body.hpp"
 
 namespace cullet {

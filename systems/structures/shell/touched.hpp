@@ -1,5 +1,6 @@
 // What a batch of cuts changed, and what must follow it at once in the rows of the model.
 #pragma once
+#include "systems/structures/shell/costs.hpp"
 #include "systems/structures/shell/ring.hpp"
 #include "systems/structures/shell/vertex_list.hpp"
 

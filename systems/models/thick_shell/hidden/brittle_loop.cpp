@@ -1,7 +1,7 @@
 #include "systems/models/thick_shell/hidden/brittle_loop.hpp"
 
-#include "systems/models/thick_shell/shared/costs.hpp"
-#include "systems/models/thick_shell/systems.hpp"
+#include "systems/models/thick_shell/hidden/costs.hpp"
+#include "systems/models/thick_shell/hidden/systems.hpp"
 
 namespace cullet {
 

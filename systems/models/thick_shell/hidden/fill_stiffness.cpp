@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
+#include "systems/models/thick_shell/hidden/systems.hpp"
 #include "systems/models/thick_shell/stiffness/assemble.hpp"
-#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet {
 

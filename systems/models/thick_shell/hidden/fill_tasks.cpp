@@ -1,6 +1,6 @@
 #include "systems/models/thick_shell/hidden/restart.hpp"
 #include "systems/models/thick_shell/hidden/strength_factors.hpp"
-#include "systems/models/thick_shell/systems.hpp"
+#include "systems/models/thick_shell/hidden/systems.hpp"
 
 namespace cullet {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "systems/models/thick_shell/hidden/crack_candidates.hpp"
-#include "systems/models/thick_shell/shared/costs.hpp"
 #include "systems/models/thick_shell/shared/cut_rows.hpp"
 #include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/models/thick_shell/stiffness/assemble.hpp"
+#include "systems/models/thick_shell/stiffness/costs.hpp"
 #include "systems/structures/shell/costs.hpp"
 #include "systems/structures/shell/vertex_sums.hpp"
 

@@ -1,6 +1,6 @@
 #include "systems/models/thick_shell/hidden/integrate_packs.hpp"
+#include "systems/models/thick_shell/hidden/systems.hpp"
 #include "systems/models/thick_shell/stiffness/pair_cells.hpp"
-#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet {
 

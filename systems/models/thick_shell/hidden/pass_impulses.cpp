@@ -3,8 +3,8 @@
 #include "systems/models/thick_shell/hidden/contact.hpp"
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
 #include "systems/models/thick_shell/hidden/run_cost.hpp"
+#include "systems/models/thick_shell/hidden/systems.hpp"
 #include "systems/models/thick_shell/shared/count_step.hpp"
-#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet {
 

@@ -1,5 +1,5 @@
 #include "systems/models/thick_shell/hidden/contact.hpp"
-#include "systems/models/thick_shell/systems.hpp"
+#include "systems/models/thick_shell/hidden/systems.hpp"
 
 namespace cullet {
 

@@ -1,7 +1,7 @@
 // What hidden runs cost, in units.
 #pragma once
 #include "components/run_rows.hpp"
-#include "systems/models/thick_shell/shared/costs.hpp"
+#include "systems/models/thick_shell/hidden/costs.hpp"
 #include "systems/structures/shell/costs.hpp"
 #include "systems/tasks/birth_cost.hpp"
 

@@ -4,7 +4,7 @@
 #include "systems/models/thick_shell/hidden/grow_cracks.hpp"
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
 #include "systems/models/thick_shell/hidden/run_cost.hpp"
-#include "systems/models/thick_shell/systems.hpp"
+#include "systems/models/thick_shell/hidden/systems.hpp"
 
 namespace cullet {
 namespace {

@@ -1,6 +1,6 @@
 #include "systems/models/thick_shell/hidden/restart.hpp"
+#include "systems/models/thick_shell/hidden/systems.hpp"
 #include "systems/models/thick_shell/stiffness/refresh.hpp"
-#include "systems/models/thick_shell/systems.hpp"
 #include "systems/structures/shell/cut_cost.hpp"
 #include "systems/structures/shell/cut_shell.hpp"
 

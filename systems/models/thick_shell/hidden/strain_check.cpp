@@ -1,5 +1,5 @@
+#include "systems/models/thick_shell/hidden/systems.hpp"
 #include "systems/models/thick_shell/stiffness/element_stress.hpp"
-#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet {
 

@@ -1,7 +1,7 @@
 #include "systems/models/thick_shell/stiffness/element_stress.hpp"
 
 #include "systems/models/thick_shell/hidden/crack_candidates.hpp"
-#include "systems/models/thick_shell/systems.hpp"
+#include "systems/models/thick_shell/hidden/systems.hpp"
 
 namespace cullet {
 

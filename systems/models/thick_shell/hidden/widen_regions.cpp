@@ -1,6 +1,6 @@
 #include "components/body_id.hpp"
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
-#include "systems/models/thick_shell/systems.hpp"
+#include "systems/models/thick_shell/hidden/systems.hpp"
 
 namespace cullet {
 

@@ -3,10 +3,10 @@
 #include "engine/random.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/models/thick_shell/hidden/contact.hpp"
+#include "systems/models/thick_shell/quick/costs.hpp"
 #include "systems/models/thick_shell/quick/quick_loop.hpp"
 #include "systems/models/thick_shell/quick/run_on.hpp"
 #include "systems/models/thick_shell/quick/strained_edges.hpp"
-#include "systems/models/thick_shell/shared/costs.hpp"
 #include "systems/structures/shell/ring.hpp"
 
 namespace cullet {

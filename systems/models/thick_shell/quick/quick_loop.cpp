@@ -1,9 +1,9 @@
 #include "systems/models/thick_shell/quick/quick_loop.hpp"
 
-#include "systems/models/thick_shell/shared/costs.hpp"
+#include "systems/models/thick_shell/quick/costs.hpp"
+#include "systems/models/thick_shell/quick/systems.hpp"
 #include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/springs/press_layers.hpp"
-#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet {
 namespace {

@@ -2,10 +2,10 @@
 #include "systems/models/thick_shell/quick/grow_region.hpp"
 #include "systems/models/thick_shell/quick/quick_loop.hpp"
 #include "systems/models/thick_shell/quick/region_motion.hpp"
+#include "systems/models/thick_shell/quick/systems.hpp"
 #include "systems/models/thick_shell/shared/count_step.hpp"
 #include "systems/models/thick_shell/springs/press_layers.hpp"
 #include "systems/models/thick_shell/springs/spring_packs.hpp"
-#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet {
 

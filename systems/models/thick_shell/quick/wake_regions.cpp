@@ -3,10 +3,10 @@
 #include "systems/models/thick_shell/hidden/forget_run.hpp"
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
 #include "systems/models/thick_shell/hidden/run_out.hpp"
+#include "systems/models/thick_shell/quick/costs.hpp"
 #include "systems/models/thick_shell/quick/region_motion.hpp"
-#include "systems/models/thick_shell/shared/costs.hpp"
+#include "systems/models/thick_shell/quick/systems.hpp"
 #include "systems/models/thick_shell/shared/cut_out.hpp"
-#include "systems/models/thick_shell/systems.hpp"
 #include "systems/structures/shell/flood_parts.hpp"
 
 namespace cullet {

@@ -11,8 +11,8 @@
 
 #include "systems/models/thick_shell/soft/sheet_energy.hpp"
 #include "systems/models/thick_shell/soft/soft_loop.hpp"
+#include "systems/models/thick_shell/soft/systems.hpp"
 #include "systems/models/thick_shell/springs/spring_view.hpp"
-#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "systems/models/thick_shell/soft/soft_lanes.hpp"
 #include "systems/models/thick_shell/soft/soft_loop.hpp"
+#include "systems/models/thick_shell/soft/systems.hpp"
 #include "systems/models/thick_shell/springs/spring_lists.hpp"
-#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet {
 namespace {

@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "systems/models/thick_shell/soft/soft_lanes.hpp"
+#include "systems/models/thick_shell/soft/systems.hpp"
 #include "systems/models/thick_shell/springs/spring_view.hpp"
-#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet {
 namespace {

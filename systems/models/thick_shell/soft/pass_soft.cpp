@@ -5,8 +5,8 @@
 #include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/models/thick_shell/soft/soft_units.hpp"
+#include "systems/models/thick_shell/soft/systems.hpp"
 #include "systems/models/thick_shell/springs/start_springs.hpp"
-#include "systems/models/thick_shell/systems.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
 
 namespace cullet {

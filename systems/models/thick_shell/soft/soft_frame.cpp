@@ -1,7 +1,7 @@
 // What an awake soft body needs before and after its substeps of a frame.
 #include "systems/models/thick_shell/soft/find_strikers.hpp"
 #include "systems/models/thick_shell/soft/soft_shape.hpp"
-#include "systems/models/thick_shell/systems.hpp"
+#include "systems/models/thick_shell/soft/systems.hpp"
 
 namespace cullet {
 namespace {

@@ -1,7 +1,8 @@
 #include "systems/models/thick_shell/soft/soft_loop.hpp"
 
 #include "systems/models/thick_shell/soft/soft_body.hpp"
-#include "systems/models/thick_shell/systems.hpp"
+#include "systems/models/thick_shell/soft/systems.hpp"
+#include "systems/models/thick_shell/springs/systems.hpp"
 
 namespace cullet {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "systems/models/thick_shell/shared/costs.hpp"
+#include "systems/models/thick_shell/soft/costs.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/models/thick_shell/springs/press_layers.hpp"
 

@@ -3,8 +3,8 @@
 #include "engine/random.hpp"
 #include "systems/models/thick_shell/soft/soft_lanes.hpp"
 #include "systems/models/thick_shell/soft/split_plane.hpp"
+#include "systems/models/thick_shell/soft/systems.hpp"
 #include "systems/models/thick_shell/springs/rebuild_springs.hpp"
-#include "systems/models/thick_shell/systems.hpp"
 
 namespace cullet {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "components/body_id.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
-#include "systems/models/thick_shell/systems.hpp"
+#include "systems/models/thick_shell/soft/systems.hpp"
 
 namespace cullet {
 namespace {

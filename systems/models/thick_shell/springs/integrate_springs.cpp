@@ -1,6 +1,6 @@
 #include "systems/models/thick_shell/springs/press_layers.hpp"
 #include "systems/models/thick_shell/springs/spring_packs.hpp"
-#include "systems/models/thick_shell/systems.hpp"
+#include "systems/models/thick_shell/springs/systems.hpp"
 
 namespace cullet {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "systems/models/thick_shell/shared/costs.hpp"
+#include "systems/models/thick_shell/springs/costs.hpp"
 #include "systems/models/thick_shell/springs/edge_stiffness.hpp"
 #include "systems/structures/shell/ring.hpp"
 

@@ -1,6 +1,6 @@
 #include "systems/models/thick_shell/springs/spring_loop.hpp"
 
-#include "systems/models/thick_shell/systems.hpp"
+#include "systems/models/thick_shell/springs/systems.hpp"
 
 namespace cullet {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "systems/cook/materials.hpp"
-#include "systems/models/thick_shell/shared/costs.hpp"
 #include "systems/models/thick_shell/stiffness/assemble.hpp"
+#include "systems/models/thick_shell/stiffness/costs.hpp"
 #include "systems/models/thick_shell/stiffness/element_bending.hpp"
 #include "systems/models/thick_shell/stiffness/element_stress.hpp"
 #include "systems/models/thick_shell/stiffness/pair_cells.hpp"

@@ -1,6 +1,7 @@
 // After any cuts the stiffness that was rebuilt locally is the one that a new assembly gives.
 #include "systems/structures/shell/touched.hpp"
 #include "components/state.hpp"
+#include "systems/models/thick_shell/stiffness/costs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,9 +10,9 @@
 #include "sample_game/meshes.hpp"
 #include "sample_game/props.hpp"
 #include "systems/models/thick_shell/hidden/contact.hpp"
+#include "systems/models/thick_shell/quick/costs.hpp"
 #include "systems/models/thick_shell/quick/quick_loop.hpp"
 #include "systems/models/thick_shell/quick/region_motion.hpp"
-#include "systems/models/thick_shell/shared/costs.hpp"
 #include "systems/structures/shell/ring.hpp"
 #include "tests/support/effort.hpp"
 

@@ -6,8 +6,8 @@
 #include "engine/random.hpp"
 #include "sample_game/spring_truth.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
+#include "systems/models/thick_shell/soft/systems.hpp"
 #include "systems/models/thick_shell/springs/start_springs.hpp"
-#include "systems/models/thick_shell/systems.hpp"
 #include "tests/systems/models/thick_shell/soft/soft_world.hpp"
 
 namespace cullet {

@@ -16,8 +16,8 @@
 #include "systems/models/thick_shell/hidden/brittle_loop.hpp"
 #include "systems/models/thick_shell/hidden/grow_cracks.hpp"
 #include "systems/models/thick_shell/hidden/integrate_packs.hpp"
+#include "systems/models/thick_shell/hidden/systems.hpp"
 #include "systems/models/thick_shell/stiffness/assemble.hpp"
-#include "systems/models/thick_shell/systems.hpp"
 #include "tests/support/crack_meshes.hpp"
 #include "tests/support/shell_meshes.hpp"
 
