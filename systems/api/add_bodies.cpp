@@ -7,13 +7,13 @@
 #include "systems/api/model_row.hpp"
 #include "systems/bodies/body_rows.hpp"
 #include "systems/bodies/model_mesh.hpp"
+#include "systems/bodies/pin_boxes.hpp"
 #include "systems/bodies/rigid_shape.hpp"
 #include "systems/bodies/settled_pose.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/drawn/bound_drawn.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/models.hpp"
-#include "systems/structures/shell/pin_boxes.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

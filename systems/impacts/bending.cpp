@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/principal_axes.hpp"
-#include "systems/structures/shell/pin_boxes.hpp"
+#include "systems/bodies/pin_boxes.hpp"
 
 namespace cullet {
 namespace {

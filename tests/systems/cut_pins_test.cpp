@@ -3,7 +3,7 @@
 
 #include "components/state.hpp"
 #include "sample_game/meshes.hpp"
-#include "systems/structures/shell/pin_boxes.hpp"
+#include "systems/bodies/pin_boxes.hpp"
 #include "tests/support/random_hits.hpp"
 #include "tests/support/small_worlds.hpp"
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "systems/bodies/pin_boxes.hpp"
 #include "systems/models/lattice/crack/part_body.hpp"
 #include "systems/models/lattice/gather_blow.hpp"
 #include "systems/models/lattice/loop.hpp"
 #include "systems/models/lattice/shared/brittle.hpp"
-#include "systems/structures/shell/pin_boxes.hpp"
 #include "systems/structures/tetrahedra/solid_rows.hpp"
 
 namespace cullet::lattice {

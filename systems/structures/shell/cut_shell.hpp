@@ -1,7 +1,7 @@
 // Takes a wall apart along a surface, at once and without forces.
 #pragma once
+#include "systems/bodies/pin_boxes.hpp"
 #include "systems/structures/shell/cut_surface.hpp"
-#include "systems/structures/shell/pin_boxes.hpp"
 #include "systems/structures/shell/touched.hpp"
 
 namespace cullet {

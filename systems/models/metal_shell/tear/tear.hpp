@@ -1,7 +1,7 @@
 // A dent that goes on beyond what the sheet can be stretched to: it tears (metal shell note, section 14).
 #pragma once
+#include "systems/bodies/pin_boxes.hpp"
 #include "systems/models/metal_shell/tear/tear_star.hpp"
-#include "systems/structures/shell/pin_boxes.hpp"
 
 namespace cullet {
 

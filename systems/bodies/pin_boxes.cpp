@@ -1,4 +1,4 @@
-#include "systems/structures/shell/pin_boxes.hpp"
+#include "systems/bodies/pin_boxes.hpp"
 
 namespace cullet {
 namespace {
