@@ -2,8 +2,8 @@
 
 #include "components/body_id.hpp"
 #include "systems/bodies/blows.hpp"
+#include "systems/bodies/explosion.hpp"
 #include "systems/models.hpp"
-#include "systems/structures/shell/explosion.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {

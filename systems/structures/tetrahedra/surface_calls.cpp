@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "components/blows.hpp"
-#include "systems/structures/shell/explosion.hpp"
+#include "systems/bodies/explosion.hpp"
 #include "systems/structures/tetrahedra/draw_solid.hpp"
 #include "systems/structures/tetrahedra/skin.hpp"
 
