@@ -6,11 +6,11 @@
 
 #include "cullet/result.hpp"
 #include "cullet/world.hpp"
+#include "systems/checks/wear.hpp"
 #include "systems/checks/world_energy.hpp"
 #include "systems/cook/cooking.hpp"
 #include "systems/cook/model_contents.hpp"
 #include "systems/structure_calls.hpp"
-#include "systems/structures/shell/cook/check_shell_rows.hpp"
 #include "systems/world_data.hpp"
 
 namespace cullet {

@@ -64,7 +64,7 @@ class DamageModels {
     const char* why_not_cut(const WorldRows& rows, Row<Bodies> body) const;
     void restore_run(WorldRows& rows, Row<Tasks> task) const;
     void restore_body(WorldRows& rows, Row<Bodies> body) const;
-    Result<void> check_shell(MetalShellRows rows, Row<Structures> shell, Wear wear, const std::string& name,
+    Result<void> check_shell(MetalShellRows rows, Row<Structures> structure, Wear wear, const std::string& name,
                              const char* advice) const;
     std::string trouble_of_task(const WorldRows& rows, uint32_t task) const;
 

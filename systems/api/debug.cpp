@@ -5,7 +5,7 @@
 
 #include "components/body_id.hpp"
 #include "systems/drawn/query_index.hpp"
-#include "systems/structures/shell/hull_edges.hpp"
+#include "systems/hulls/hull_edges.hpp"
 #include "systems/structures/shell/prism.hpp"
 #include "systems/world_contents.hpp"
 

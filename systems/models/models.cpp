@@ -179,10 +179,10 @@ void DamageModels::restore_body(WorldRows& rows, Row<Bodies> body) const {
     if (const auto call = call_of(rows, body, &ModelCalls::restore_body)) call(rows, body);
 }
 
-Result<void> DamageModels::check_shell(MetalShellRows rows, Row<Structures> shell, Wear wear, const std::string& name,
+Result<void> DamageModels::check_shell(MetalShellRows rows, Row<Structures> structure, Wear wear, const std::string& name,
                                        const char* advice) const {
-    const auto call = call_of(rows.shell_rows, shell, &ModelCalls::check_shell);
-    return call ? call(rows, shell, wear, name, advice) : Result<void>();
+    const auto call = call_of(rows.shell_rows, structure, &ModelCalls::check_shell);
+    return call ? call(rows, structure, wear, name, advice) : Result<void>();
 }
 
 std::string DamageModels::trouble_of_task(const WorldRows& rows, uint32_t task) const {

@@ -5,6 +5,7 @@
 #include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/models/thick_shell/soft/check_soft.hpp"
 #include "systems/models/thick_shell/springs/check_springs.hpp"
+#include "systems/structures/shell/cook/check_shell_rows.hpp"
 #include "systems/tasks/step_limits.hpp"
 
 namespace cullet {

@@ -1,5 +1,6 @@
 #include "tests/models/halves/calls.hpp"
 
+#include "systems/structures/shell/cook/check_shell_rows.hpp"
 #include "tests/models/halves/loop.hpp"
 
 namespace cullet::halves {

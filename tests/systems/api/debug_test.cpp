@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "systems/structures/shell/hull_edges.hpp"
+#include "systems/hulls/hull_edges.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

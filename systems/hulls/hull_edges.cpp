@@ -1,4 +1,4 @@
-#include "systems/structures/shell/hull_edges.hpp"
+#include "systems/hulls/hull_edges.hpp"
 
 #include <cmath>
 
