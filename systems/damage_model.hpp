@@ -74,6 +74,14 @@ class DamageModel {
         };
         return *this;
     }
+    /// Who is driven into a body that the model can move by itself: `CallUp(rows, body)` lets it make way from the next
+    /// step on, false where the model cannot. `IsDrivenInto(rows)`: somebody is driven into one now.
+    template <auto CallUp, auto IsDrivenInto>
+    DamageModel& makes_way() {
+        calls_.call_up = [](WorldRows& rows, Row<Bodies> body) { return CallUp(rows, body); };
+        calls_.is_driven_into = [](const WorldRows& rows) { return IsDrivenInto(rows); };
+        return *this;
+    }
     /// `Cook(cooking)` makes a shell of a clean mesh, in tables of its own. A sentence without the mesh's name refuses
     /// it.
     template <auto Cook>
@@ -166,6 +174,18 @@ class DamageModel {
     DamageModel& needs_room() {
         calls_.room = [](WorldRows& rows, Row<Bodies> body) { return Room(rows, body); };
         calls_.may_find_room = [](const WorldRows& rows, Row<Bodies> body) { return MayFind(rows, body); };
+        return *this;
+    }
+    /// `IsFull(rows)`: as many of its tasks are open as may be at a time; others wait.
+    template <auto IsFull>
+    DamageModel& takes_turns() {
+        calls_.is_full = [](const WorldRows& rows) { return IsFull(rows); };
+        return *this;
+    }
+    /// The first crack's speed that it cooks is that of a few places, and weaker ones break below it. Its runs tell
+    /// within a frame, so that any blow is worth a hold.
+    DamageModel& breaks_at_any_speed() {
+        calls_.breaks_at_any_speed = true;
         return *this;
     }
     /// `Length(rows, body)`: a RunLength, none where runs are over before anything presses on.

@@ -78,6 +78,8 @@ struct ModelCalls {
     void (*begin)(WorldRows&, Row<Tasks>) = nullptr;
     bool (*give_late)(WorldRows&, const Blows&, Row<Tasks>, const char** full) = nullptr;
     bool (*may_find_room)(const WorldRows&, Row<Bodies>) = nullptr;
+    bool (*is_full)(const WorldRows&) = nullptr;
+    bool breaks_at_any_speed = false;
     bool (*is_pressed)(WorldRows&, Row<Bodies>, const Press&) = nullptr;
     double (*least_width)(const WorldRows&, Row<Bodies>) = nullptr;
     std::optional<RunLength> (*length)(const WorldRows&, Row<Bodies>) = nullptr;
@@ -95,6 +97,8 @@ struct ModelCalls {
     std::optional<MechanicalEnergy> (*energy)(WorldRows&, Row<Bodies>, Vec3 gravity) = nullptr;
     bool (*push)(WorldRows&, RigidWorld&, Row<Bodies>, const PointPush&) = nullptr;
     bool (*explode)(WorldRows&, RigidWorld&, Row<Bodies>, const Explosion&) = nullptr;
+    bool (*call_up)(WorldRows&, Row<Bodies>) = nullptr;
+    bool (*is_driven_into)(const WorldRows&) = nullptr;
     bool (*is_moving)(const WorldRows&, Row<Bodies>) = nullptr;
     void (*look_for_pieces)(WorldRows&, Row<Bodies>) = nullptr;
     Row<Bodies> (*take_torn)(WorldRows&) = nullptr;

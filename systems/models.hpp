@@ -39,6 +39,10 @@ class DamageModels {
     void begin_run(WorldRows& rows, Row<Tasks> task) const;
     bool give_late(WorldRows& rows, const Blows& blows, Row<Tasks> task, const char** full) const;
     bool may_find_room(const WorldRows& rows, Row<Bodies> body) const;
+    /// As many tasks of its model are open as may be at a time. A load, which goes on, waits for that and tells nobody.
+    bool is_full(const WorldRows& rows, Row<Bodies> body) const;
+    /// Blows slower than Structures::first_crack_speed break it, too.
+    bool breaks_at_any_speed(const Structures& structures, Row<Structures> structure) const;
     std::optional<RunLength> length(const WorldRows& rows, Row<Bodies> body) const;
     std::optional<ShellRoom> room(WorldRows& rows, Row<Bodies> body) const;
     bool is_part(const WorldRows& rows, uint32_t task) const;
@@ -53,6 +57,9 @@ class DamageModels {
     std::optional<MechanicalEnergy> energy(WorldRows& rows, Row<Bodies> body, Vec3 gravity) const;
     bool push(WorldRows& rows, RigidWorld& rigid, Row<Bodies> body, const PointPush& push) const;
     bool explode(WorldRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) const;
+    /// What the model moves by itself gives way like that to who is driven into it, whatever touches it: from the next
+    /// step on. False: it does not move it.
+    bool call_up(WorldRows& rows, Row<Bodies> body) const;
     bool is_moving(const WorldRows& rows, Row<Bodies> body) const;
     void look_for_pieces(WorldRows& rows, Row<Bodies> body) const;
     void hand_off_torn(const WorldRows& rows, const Break& torn, Fragments& fragments) const;
@@ -76,6 +83,8 @@ class DamageModels {
     uint32_t most_moving(const WorldRows& rows) const;
     /// Gives them what there is, the first models first; returns what they use.
     uint64_t grant_frame(WorldRows& rows, uint64_t units, uint64_t& slow_frames) const;
+    /// Somebody who yields to nothing is driven into what a model moves by itself.
+    bool is_any_driven_into(const WorldRows& rows) const;
     /// A body that tore, each once; a row that does not exist: there is none left.
     Row<Bodies> take_torn(WorldRows& rows) const;
     Result<void> check_rows(const WorldRows& rows, const std::string& name, const char* advice) const;

@@ -19,13 +19,12 @@ inline float wake_speed(const Structures& structures, Row<Structures> s, float s
     return kWakeShare * first_crack_speed(structures, s, strength_scale) * (structures.has_cracks[s] ? 0.5f : 1.0f);
 }
 /// Whether it breaks is known before anybody sees that it stands still: a bump below the speed of the first crack is
-/// the solver's affair at once. The speed of a solid is that of a few of its places, and weaker ones break below it;
-/// its first solve tells within a frame, and only what breaks goes on.
+/// the solver's affair at once. `breaks_at_any_speed`: what DamageModels says of the task's source.
 inline bool is_worth_a_hold(const Structures& structures, const Tasks& tasks, uint32_t task,
-                            const DamageSettings& settings) {
+                            const DamageSettings& settings, bool breaks_at_any_speed) {
     const Row<Structures> source = tasks.source[task];
     return settings.hold_seconds > 0 &&
-           (!is_shell(structures, source) ||
+           (breaks_at_any_speed ||
             tasks.approach_speed[task] > first_crack_speed(structures, source, tasks.strength_scale[task]));
 }
 /// Fragments too light, or of too few elements, break no further (section 6.1); the game says where.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/models.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -32,17 +33,8 @@ namespace {
 
 // Who is driven into an awake body puts points that he lies too deep in outside, against their springs, and lifts them:
 // his work, which no impulse tells of.
-double work_of_presses(const WorldRows& rows, const MechanicalEnergy& before, const MechanicalEnergy& after) {
-    const SoftBodies& soft = rows.soft_bodies;
-    for (uint32_t s = 0; s < soft.size(); ++s)
-        for (uint32_t i = 0; soft.is_used[s] && soft.is_awake[s] && i < soft.striker_count[s]; ++i) {
-            const SoftStriker& striker = rows.soft_strikers.striker[kMostStrikers * s + i];
-            const bool is_driven = striker.is_pushed && !striker.yields &&
-                                   dot(striker.velocity, striker.velocity) + dot(striker.spin, striker.spin) > 0;
-            if (is_driven)
-                return std::max(0.0, after.strain - before.strain) + std::max(0.0, after.height - before.height);
-        }
-    return 0;
+double work_of_presses(const MechanicalEnergy& before, const MechanicalEnergy& after) {
+    return std::max(0.0, after.strain - before.strain) + std::max(0.0, after.height - before.height);
 }
 
 }  // namespace
@@ -68,9 +60,10 @@ void close_energy_balance(Serial, Step step, WorldRows& rows, const Debris& debr
         balance.most_frame = step.frame;
     }
     const bool is_soft = balance.start.awake > 0 || end.awake > 0;
+    const bool is_pressed = is_soft && models.is_any_driven_into(rows);
     const double allowed =
         energy_tolerance(step, balance.start, end) +
-        (is_soft ? soft_tolerance(balance.start, end) + work_of_presses(rows, balance.start, end) : 0);
+        (is_soft ? soft_tolerance(balance.start, end) + (is_pressed ? work_of_presses(balance.start, end) : 0) : 0);
     if (balance.gain > allowed)
         faults.push(
             {{}, 0, {}, "This frame made energy: more came out of it than went in (checks/energy_balance.hpp)."});

@@ -247,10 +247,7 @@ void hold_squeezed(Serial, Step step, RigidWorld& rigid, WorldRows& rows, Damage
         }
         if (!is_final) between = between_two(bodies, body, loads, dt, room);
         if (!is_squeezed(between)) continue;
-        if (const Row<SoftBodies> soft = bodies.soft[body]; soft.exists()) {
-            rows.soft_bodies.is_called[soft] = 1;
-            continue;
-        }
+        if (ledger.models.call_up(rows, body)) continue;
         const Vec3 push =
             rotate(bodies.orientation[body], normalised(between.by->push - between.against->push).to_float());
         const double width = width_along(rows, body, push);

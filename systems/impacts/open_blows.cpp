@@ -187,7 +187,7 @@ struct Opener {
             }
         } else if (!state.bodies.hold_count[body] && o.opening.frame >= state.bodies.retry_frame[body] &&
                    has_free_task(state.tasks) && (!is_cut || may_cut(row)) &&
-                   !(is_parted(row) && waits_for_room(state, body))) {
+                   !(is_parted(row) && o.opening.models.is_full(state, body))) {
             const Row<Tasks> task = o.opening.open(body, is_cut ? 1.0f : blows.speed[row]);
             if (!task.exists()) {
                 pay(row);

@@ -58,28 +58,29 @@ void lay_queued(WorldRows& state, const QueuedHits& queued, Row<Tasks> task, uin
 }
 
 // A hit that settle_tasks will hold: a bump below the first-crack speed is late, and the solver's affair, at once.
-bool will_be_held(const RunRows& state, const DamageSettings& settings, Row<Tasks> task) {
+bool will_be_held(const RunRows& state, const DamageRules& rules, Row<Tasks> task) {
     const Tasks& tasks = state.tasks;
     return static_cast<TaskState>(tasks.state[task]) == TaskState::Running && !tasks.is_late[task] &&
-           is_worth_a_hold(state.structures, tasks, task, settings);
+           is_worth_a_hold(state.structures, tasks, task, rules.settings,
+                           rules.models.breaks_at_any_speed(state.structures, tasks.source[task]));
 }
 
 // A striker that touches k bodies whose tasks open in one frame is given to each as k times as light: k strikers of a
 // k-th of its mass each lose together at most what one loses that all k push, by the convexity of |v|^2. Else each
 // task would take its own from the whole of its motion, and breaks would add energy.
-void share_strikers(SoftRows& state, const DamageSettings& settings, std::span<const TaskOpened> opened) {
+void share_strikers(SoftRows& state, const DamageRules& rules, std::span<const TaskOpened> opened) {
     const Tasks& tasks = state.tasks;
     TaskContacts& contacts = state.task_contacts;
     const auto takes = [&](Row<Tasks> task, Row<Bodies> striker) {
         const uint32_t first = tasks.first_contact[task], end = first + tasks.contact_count[task];
         for (uint32_t c = first; c < end; ++c)
             if (contacts.striker[c] == striker && contacts.striker_own_inverse_mass[c] > 0)
-                return will_be_held(state, settings, task);
+                return will_be_held(state, rules, task);
         return false;
     };
     const auto for_each_shared = [&](auto visit) {
         for (const TaskOpened& of : opened) {
-            if (!will_be_held(state, settings, of.task)) continue;
+            if (!will_be_held(state, rules, of.task)) continue;
             const uint32_t first = tasks.first_contact[of.task], end = first + tasks.contact_count[of.task];
             for (uint32_t c = first; c < end; ++c)
                 if (contacts.striker[c].exists() && contacts.striker_own_inverse_mass[c] > 0) visit(c);
@@ -162,7 +163,7 @@ void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& sett
         if (has_waiting_cut(opening.blows, body)) continue;
         // Older bumps of what presses on it would work for half a second before the load is looked at.
         if (!(queued.load[q] > 0) && has_waiting_load(queued, body)) continue;
-        if (queued.load[q] > 0 && waits_for_room(state, body)) continue;
+        if (queued.load[q] > 0 && opening.models.is_full(state, body)) continue;
         const bool snaps = is_snap(queued.load[q], queued.approach_speed[q]);
         // What asks for a snap has seen to it that nothing else is left.
         const auto may_break = snaps ? may_be_crushed : may_break_again;
@@ -233,7 +234,7 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<F
     open_blows(blows);
     open_ahead(opening, foreseen, settings);
     opening.give_rows();
-    share_strikers(rows, settings, out.opened.all());
+    share_strikers(rows, {settings, ledger.models}, out.opened.all());
 }
 
 }  // namespace cullet

@@ -6,7 +6,6 @@
 #include "systems/bodies/blows.hpp"
 #include "systems/bodies/thresholds.hpp"
 #include "systems/models.hpp"
-#include "systems/structures/tetrahedra/solid_rooms.hpp"
 
 namespace cullet {
 namespace {
@@ -205,10 +204,6 @@ void Opening::drop(Row<Tasks> task, const char* full) {
                                contacts.striker_inverse_mass[c], contacts.striker_radius[c], tasks.load[task]});
         if (!is_queued) return refuse(body, "limits.queued_hits", false);
     }
-}
-
-bool waits_for_room(const WorldRows& rows, Row<Bodies> body) {
-    return !is_shell(rows.structures, rows.bodies.structure[body]) && taken_rooms(rows) >= kSolidRooms;
 }
 
 bool queue_hit(QueuedHits& queued, const QueuedHit& hit) {

@@ -25,16 +25,14 @@ ImpactEvent event_of(const Bodies& bodies, const Impact& impact, double inverse_
 /// `first_aimed` is the first of them as aimed() has it.
 void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, WorldRows& state, Row<Tasks> task);
 
-/// As many solids break as may at a time. A load, which goes on, waits for that and tells nobody.
-bool waits_for_room(const WorldRows& rows, Row<Bodies> body);
-
 /// A row of QueuedHits.
 struct QueuedHit {
     uint64_t frame;
     Row<Bodies> body, striker;
     Vec3 point, normal;  // body frame and axes
     float approach_speed, striker_inverse_mass, striker_radius;
-    float load = 0;  // N, see Tasks; with no speed: it comes apart across `normal` at `point`, see snap()
+    float load =
+        0;  // N, see Tasks; with no speed: it comes apart across `normal` at `point`, see snap()
 };
 
 struct Opening {

@@ -1,5 +1,7 @@
 #include "systems/models.hpp"
 
+#include <algorithm>
+
 #include "systems/models/lattice/model.hpp"
 #include "systems/models/metal_shell/model.hpp"
 #include "systems/models/thick_shell/model.hpp"
@@ -179,8 +181,8 @@ void DamageModels::restore_body(WorldRows& rows, Row<Bodies> body) const {
     if (const auto call = call_of(rows, body, &ModelCalls::restore_body)) call(rows, body);
 }
 
-Result<void> DamageModels::check_shell(MetalShellRows rows, Row<Structures> structure, Wear wear, const std::string& name,
-                                       const char* advice) const {
+Result<void> DamageModels::check_shell(MetalShellRows rows, Row<Structures> structure, Wear wear,
+                                       const std::string& name, const char* advice) const {
     const auto call = call_of(rows.shell_rows, structure, &ModelCalls::check_shell);
     return call ? call(rows, structure, wear, name, advice) : Result<void>();
 }
@@ -195,6 +197,27 @@ uint64_t DamageModels::units_wanted(const WorldRows& rows) const {
     for (const DamageModel& model : models_)
         if (const auto wanted = model.calls().wanted) sum += wanted(rows);
     return sum;
+}
+
+bool DamageModels::is_full(const WorldRows& rows, Row<Bodies> body) const {
+    const auto call = call_of(rows, body, &ModelCalls::is_full);
+    return call && call(rows);
+}
+
+bool DamageModels::breaks_at_any_speed(const Structures& structures, Row<Structures> structure) const {
+    return models_[structures.damage_model[structure]].calls().breaks_at_any_speed;
+}
+
+bool DamageModels::call_up(WorldRows& rows, Row<Bodies> body) const {
+    const auto call = call_of(rows, body, &ModelCalls::call_up);
+    return call && call(rows, body);
+}
+
+bool DamageModels::is_any_driven_into(const WorldRows& rows) const {
+    return std::any_of(models_.begin(), models_.end(), [&](const DamageModel& model) {
+        const auto is_driven_into = model.calls().is_driven_into;
+        return is_driven_into && is_driven_into(rows);
+    });
 }
 
 uint32_t DamageModels::most_moving(const WorldRows& rows) const {

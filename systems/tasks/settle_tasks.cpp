@@ -2,6 +2,7 @@
 #include "systems/births/strike_back.hpp"
 #include "systems/bodies/blows.hpp"
 #include "systems/bodies/thresholds.hpp"
+#include "systems/models.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -37,7 +38,8 @@ void settle_tasks(Serial, Step step, RunTables runs, Bodies& bodies, const Struc
         if (task_state == TaskState::Free || is_ahead(runs.tasks, t)) continue;
         const bool is_over = task_state != TaskState::Running;
         if (!is_over && !runs.tasks.is_held[t] && !runs.tasks.is_late[t]) {
-            if (is_worth_a_hold(structures, runs.tasks, t, ledger.settings)) {
+            const bool at_any_speed = ledger.models.breaks_at_any_speed(structures, runs.tasks.source[t]);
+            if (is_worth_a_hold(structures, runs.tasks, t, ledger.settings, at_any_speed)) {
                 runs.tasks.is_held[t] = 1;
                 for (ImpactEvent& e : told.impacts.all())
                     e.is_held = e.is_held || e.body == body_id(bodies, runs.tasks.body[t]);

@@ -21,10 +21,14 @@ const char* why_not_cut([[maybe_unused]] Read<LatticeRows> rows, Row<Bodies>) {
     return "it is a solid of the model lattice, which is not cut yet; cut one of thick_shell";
 }
 
+bool is_full(Tables<const Structures, const Tasks> rows) {
+    return taken_rooms(rows) >= kSolidRooms;
+}
+
 // It gets its rows when it is known what comes of it.
 WorkingCopy take_copy(LatticeRows rows, Row<Bodies> body) {
     WorkingCopy made;
-    if (taken_rooms(rows) >= kSolidRooms) {
+    if (is_full(rows)) {
         made.full = "limits.open_hits";
         return made;
     }

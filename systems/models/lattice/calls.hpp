@@ -7,6 +7,8 @@ namespace cullet::lattice {
 Result<ShellRoom> spawn_body(All<LatticeRows, Bodies> rows, Row<Bodies> body, const Spawning& spawning);
 const char* why_not_cut(Read<LatticeRows> rows, Row<Bodies> body);
 
+/// So many solids break at a time; others wait.
+bool is_full(Tables<const Structures, const Tasks> rows);
 WorkingCopy take_copy(LatticeRows rows, Row<Bodies> body);
 void begin_task(LatticeRows rows, Row<Tasks> task);
 ShellRoom room_of_hit(Read<LatticeRows> rows, Row<Bodies> body);

@@ -17,6 +17,7 @@ DamageModel lattice_model() {
     model.cook_settings<&CookSettings::lattice>("lattice");
     model.cooks<cook_lattice>().spawns<spawn_body>().says_why_not_cut<why_not_cut>();
     model.takes<take_copy, begin_task>().needs_room<room_of_hit, may_find_room>();
+    model.takes_turns<is_full>().breaks_at_any_speed();
     model.restores<restore_run, restore_body>();
     model.checks_own<trouble_of_run, check_rows>();
     return model;

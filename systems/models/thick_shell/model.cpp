@@ -53,6 +53,7 @@ DamageModel thick_shell_model() {
     model.lasts<run_length>().works_on_parts<is_cut_out>().cancels<cancel_run>();
     model.moves_rest<motion_of_rest>().inherits<inherit_fracture>().keeps_cell_names<is_quick_body>();
     model.has_energy<soft_energy>().takes_blows<push_soft_body, explode_soft_body>();
+    model.makes_way<call_up_soft_body, is_soft_driven_into>();
     model.may_tear<is_awake, look_for_pieces, take_torn>().tears<hand_off_torn, give_torn_pieces, keep_torn_body>();
     model.keeps_for_bodies<follow_body, release_soft>();
     model.restores<restore_scratch, restore_sums>();

@@ -35,4 +35,23 @@ bool explode_soft_body(SoftRows& state, RigidWorld& rigid, Row<Bodies> body, con
     return true;
 }
 
+bool call_up_soft_body(SoftRows& state, Row<Bodies> body) {
+    const Row<SoftBodies> soft = state.bodies.soft[body];
+    if (!soft.exists()) return false;
+    state.soft_bodies.is_called[soft] = 1;
+    return true;
+}
+
+bool is_soft_driven_into(const SoftRows& state) {
+    const SoftBodies& soft = state.soft_bodies;
+    for (uint32_t s = 0; s < soft.size(); ++s)
+        for (uint32_t i = 0; soft.is_used[s] && soft.is_awake[s] && i < soft.striker_count[s]; ++i) {
+            const SoftStriker& striker = state.soft_strikers.striker[kMostStrikers * s + i];
+            if (striker.is_pushed && !striker.yields &&
+                dot(striker.velocity, striker.velocity) + dot(striker.spin, striker.spin) > 0)
+                return true;
+        }
+    return false;
+}
+
 }  // namespace cullet

@@ -9,5 +9,9 @@ std::optional<MechanicalEnergy> soft_energy(SoftRows& state, Row<Bodies> body, V
 /// Of one that may be awake, and is then.
 bool push_soft_body(SoftRows& state, RigidWorld& rigid, Row<Bodies> body, const PointPush& push);
 bool explode_soft_body(SoftRows& state, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion);
+/// It wakes in the next step.
+bool call_up_soft_body(SoftRows& state, Row<Bodies> body);
+/// Somebody who does not yield moves into one that is awake.
+bool is_soft_driven_into(const SoftRows& state);
 
 }  // namespace cullet
