@@ -1,7 +1,9 @@
 // What the rest of the program asks of what things are made of. A kind of structure gives plain functions over sets of
 // tables; the slots that it fills (slots.hpp) are where its own systems stand.
 #pragma once
+#include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "components/workbench.hpp"
@@ -17,12 +19,23 @@ namespace cullet {
 struct Blows;
 struct Explosion;
 struct ExplosionSums;
+class HeldParts;
+struct LoadedSection;
 
 /// How those parts of a large body move that its run left alone. Body axes.
 struct RestMotion {
     Vec3d centre, velocity, spin;
     Vec3d at(Vec3 place) const { return velocity + cross(spin, Vec3d(place) - centre); }
 };
+
+/// How far a body goes along a direction, from its centre of mass, m.
+struct Reach {
+    double low = 1e30, high = -1e30;
+    double size() const { return high - low; }
+    void add(double at) { low = std::min(low, at), high = std::max(high, at); }
+};
+
+using CrackLine = void (*)(void* user, Vec3 from, Vec3 to);
 
 /// What a run leaves in a structure, and is to be cleared.
 struct RunTraces {
@@ -64,8 +77,27 @@ struct StructureCalls {
     ExplosionSums (*measure_explosion)(WorldRows&, Row<Structures>, const Explosion&, Vec3d about) = nullptr;
     /// The cut in this row of Blows goes through it.
     bool (*is_cut_by)(WorldRows&, Row<Structures>, const Blows&, uint32_t row) = nullptr;
+
+    // ---- What it bears, and how it gives way to it
+
     /// It gives way to what presses on it for long.
     bool bears_loads = false;
+    /// There is something between its walls: it bears squeezing through all of it, and a load parts it whether the game
+    /// may cut it or not.
+    bool is_filled = false;
+    /// m, of its walls; of what is filled the mean thickness.
+    double (*wall)(const WorldRows&, Row<Bodies>) = nullptr;
+    /// How far its surface goes each of these ways, unit, body axes. Adds to what is there.
+    void (*reach)(const WorldRows&, Row<Bodies>, std::span<const Vec3d> ways, std::span<Reach> along) = nullptr;
+    /// Adds what pins hold of it along the axis, body frame.
+    void (*add_held)(const WorldRows&, Row<Bodies>, Vec3d axis, HeldParts&) = nullptr;
+    /// Of the smallest parts that it can come apart into, those that a run on all of it goes through.
+    uint32_t (*elements_of_run)(const WorldRows&, Row<Structures>) = nullptr;
+    /// Asks for a cut that parts it there. False: no row of Blows is free.
+    bool (*part_by_load)(const WorldRows&, Blows&, Row<Bodies>, const LoadedSection&) = nullptr;
+    /// Units of the cut in this row of Blows, made whole in the step that opens its task, with the opening. 0: it is
+    /// parted step by step, as it breaks.
+    uint64_t (*units_of_cut)(const WorldRows&, Row<Structures>, const Blows&, uint32_t row) = nullptr;
 
     // ---- What is drawn of it
 
@@ -75,6 +107,8 @@ struct StructureCalls {
     void (*remember_drawn)(WorldRows&, Row<Structures>, Row<Bodies>) = nullptr;
     /// Drawn triangles name one of so many parts of it.
     uint32_t (*drawn_parts)(const WorldRows&, Row<Structures>) = nullptr;
+    /// `line(user, from, to)` for each edge that is cracked, body frame: for debugging.
+    void (*show_cracks)(const WorldRows&, Row<Structures>, CrackLine line, void* user) = nullptr;
 
     // ---- Fragments
 

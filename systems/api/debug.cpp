@@ -6,7 +6,7 @@
 #include "components/body_id.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/hulls/hull_edges.hpp"
-#include "systems/structures/shell/prism.hpp"
+#include "systems/structure_calls.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
@@ -84,19 +84,16 @@ void draw_shape(const Pen& pen, const WorldData& d, Row<Bodies> b, uint32_t colo
 void draw_cracks(const Pen& pen, const State& state, Row<Bodies> b) {
     const uint32_t task = state.bodies.task[b];
     const Row<Structures> structure = task == kNone ? state.bodies.structure[b] : state.tasks.working[task];
-    if (!structure.exists() || !is_shell(state.structures, structure)) return;
-    const Pose pose = pose_of(state.bodies, b);
-    const Range elements = state.shells.elements[state.shell_of(structure)],
-                vertices = state.shells.vertices[state.shell_of(structure)];
-    for (uint32_t e = elements.first; e < elements.first + elements.count; ++e) {
-        if (state.elements.flags[e] & kDead) continue;
-        const auto corner = state.elements.corner[e];
-        for (size_t k = 0; k < 3; ++k) {
-            if (static_cast<EdgeKind>(state.elements.edge_kind[e][k]) != EdgeKind::Crack) continue;
-            pen(to_world(pose, smoothed_place(state, vertices.first + corner[k])),
-                to_world(pose, smoothed_place(state, vertices.first + corner[(k + 1) % 3])), kDebugCrack);
-        }
-    }
+    if (!structure.exists()) return;
+    struct InWorld {
+        const Pen& pen;
+        Pose pose;
+    } place{pen, pose_of(state.bodies, b)};
+    const auto line = [](void* user, Vec3 from, Vec3 to) {
+        const auto& in = *static_cast<const InWorld*>(user);
+        in.pen(to_world(in.pose, from), to_world(in.pose, to), kDebugCrack);
+    };
+    calls_of(state.structures, structure).show_cracks(state, structure, line, &place);
 }
 
 void draw_axes(const Pen& pen, const Bodies& bodies, Row<Bodies> b) {

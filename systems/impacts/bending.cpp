@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/principal_axes.hpp"
-#include "systems/bodies/pin_boxes.hpp"
 
 namespace cullet {
 namespace {
@@ -16,28 +15,26 @@ constexpr double kSlender = 3;
 
 /// The body along its principal axes.
 struct Beam {
-    double low[3], high[3], modulus[3][3];  // m from the centre; m3 of sections across i, bent along j
+    double modulus[3][3];  // m3 of sections across i, bent along j
     Vec3d axis[3];
+    std::array<Reach, 3> reach;
 
     explicit Beam(const LoadedBody& of) {
         const PrincipalAxes principal = principal_axes(of.bodies.inertia[of.body]);
         const Vec3 unit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-        for (int i = 0; i < 3; ++i) axis[i] = Vec3d(rotate(principal.axes, unit[i])), low[i] = 1e30, high[i] = -1e30;
-        of.for_each_corner([&](Vec3d corner) {
-            for (int i = 0; i < 3; ++i) {
-                const double p = dot(axis[i], corner);
-                low[i] = std::min(low[i], p), high[i] = std::max(high[i], p);
-            }
-        });
+        for (int i = 0; i < 3; ++i) axis[i] = Vec3d(rotate(principal.axes, unit[i]));
+        reach = of.reach(axis);
         const double moment[3] = {principal.moments.x, principal.moments.y, principal.moments.z};
         const double volume = of.solid_volume(), sum = moment[0] + moment[1] + moment[2];
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) {
                 const double square = std::max(0.0, (0.5 * sum - moment[j]) / of.bodies.mass[of.body]);
-                modulus[i][j] = volume * square / (length(i) * std::max(high[j], -low[j]));
+                modulus[i][j] = volume * square / (length(i) * std::max(high(j), -low(j)));
             }
     }
-    double length(int i) const { return std::max(high[i] - low[i], 1e-9); }
+    double low(int i) const { return reach[static_cast<size_t>(i)].low; }
+    double high(int i) const { return reach[static_cast<size_t>(i)].high; }
+    double length(int i) const { return std::max(high(i) - low(i), 1e-9); }
 };
 
 /// N m, the largest, and where it is along the axis, m from the centre.
@@ -61,7 +58,7 @@ struct FreeBar {
     }
     // Of the forces before it, their sum and their sum times place.
     void look(double at, double sum, double turning) {
-        const double way = std::max(0.0, at - beam.low[i]), moment = at * sum - turning - 0.5 * even * way * way;
+        const double way = std::max(0.0, at - beam.low(i)), moment = at * sum - turning - 0.5 * even * way * way;
         if (std::fabs(moment) > most.size && !sags_onto_somebody(at, moment > 0)) most = {std::fabs(moment), at};
     }
 };
@@ -84,102 +81,17 @@ Moment free_moment(const Beam& beam, int i, int j, std::span<const BodyLoad> loa
         sum += forces[l].force;
         turning += forces[l].force * forces[l].at;
         if (bar.even == 0 || l + 1 == loads.size()) continue;
-        const double still = beam.low[i] + sum / bar.even;
+        const double still = beam.low(i) + sum / bar.even;
         if (forces[l].at < still && still < forces[l + 1].at) bar.look(still, sum, turning);
     }
     return bar.most;
 }
 
-/// Along an axis, from the frame's origin, m.
-struct Held {
-    double low, high;
-};
-
-/// Along the axis, m: how far the nearest pins are from a place, to both sides.
-struct Span {
-    double before = 1e30, behind = 1e30;
-    double moment(double force) const {
-        if (before < 1e29 && behind < 1e29)
-            return before + behind > 0 ? force * before * behind / (before + behind) : 0;
-        const double arm = std::min(before, behind);
-        return arm < 1e29 ? force * arm : 0;
-    }
-    /// From the place to the largest moment; off the pins, so that the cut is not among them.
-    double to_largest() const {
-        if (before < 1e29 && behind < 1e29) return 0;
-        return before < behind ? -kOffPins * before : behind < 1e29 ? kOffPins * behind : 0;
-    }
-};
-
-/// What pins hold along an axis: apart from each other.
-class HeldParts {
- public:
-    HeldParts(const LoadedBody& of, Vec3d axis) {
-        if (of.is_solid()) {
-            add_boxes(of, axis);
-            return;
-        }
-        const Range rows = of.shells.vertices[of.shell()];
-        for (uint32_t v = rows.first; v < rows.first + rows.count; ++v)
-            if (of.vertices.element[v] != kNone && of.vertices.is_pinned[v]) add(held_by(of, axis, v));
-    }
-    Span span_at(double at) const {
-        Span span;
-        for (uint32_t p = 0; p < count_; ++p) {
-            const Held held = parts_[p];
-            if (held.low <= at && at <= held.high) return {0, 0};
-            if (held.high < at) span.before = std::min(span.before, at - held.high);
-            if (held.low > at) span.behind = std::min(span.behind, held.low - at);
-        }
-        return span;
-    }
-
- private:
-    static constexpr uint32_t kMost = 32;
-    Held parts_[kMost];
-    uint32_t count_ = 0;
-
-    // A solid is held as far as the boxes go, wherever its mesh has points.
-    void add_boxes(const LoadedBody& of, Vec3d axis) {
-        const Range boxes = of.bodies.pins[of.body];
-        for (uint32_t p = boxes.first; p < boxes.first + boxes.count; ++p) add(reach_of(of, axis, p));
-    }
-    static Held reach_of(const LoadedBody& of, Vec3d axis, uint32_t box) {
-        const Vec3 low = of.pin_boxes.low[box], high = of.pin_boxes.high[box];
-        const Vec3d half = 0.5 * (Vec3d(high) - Vec3d(low));
-        const double middle = dot(axis, 0.5 * (Vec3d(low) + Vec3d(high)));
-        const double reach = std::fabs(axis.x) * half.x + std::fabs(axis.y) * half.y + std::fabs(axis.z) * half.z;
-        return {middle - reach, middle + reach};
-    }
-
-    // A pinned vertex, and all of the boxes around it: what lies in a wall is held as far as the wall goes.
-    static Held held_by(const LoadedBody& of, Vec3d axis, uint32_t vertex) {
-        const Vec3 at = of.vertices.rest[vertex];
-        Held held{dot(axis, Vec3d(at)), dot(axis, Vec3d(at))};
-        const Range boxes = of.bodies.pins[of.body];
-        for (uint32_t p = boxes.first; p < boxes.first + boxes.count; ++p) {
-            if (!is_held(of.pin_boxes, Range{p, 1, 1}, at)) continue;
-            const Held box = reach_of(of, axis, p);
-            held = {std::min(held.low, box.low), std::max(held.high, box.high)};
-        }
-        return held;
-    }
-
-    // More parts than there is room for join the last one: what lies between them counts as held.
-    void add(Held held) {
-        for (uint32_t p = 0; p < count_;) {
-            const bool is_apart = held.high < parts_[p].low || parts_[p].high < held.low;
-            if (is_apart && !(count_ == kMost && p + 1 == count_)) {
-                ++p;
-                continue;
-            }
-            held = {std::min(held.low, parts_[p].low), std::max(held.high, parts_[p].high)};
-            parts_[p] = parts_[--count_];
-            p = 0;
-        }
-        parts_[count_++] = held;
-    }
-};
+// From the place to the largest moment; off the pins, so that the cut is not among them.
+double to_largest(const HeldSpan& span) {
+    if (span.before < 1e29 && span.behind < 1e29) return 0;
+    return span.before < span.behind ? -kOffPins * span.before : span.behind < 1e29 ? kOffPins * span.behind : 0;
+}
 
 // Of a bracket it is largest where the pins end.
 Moment pinned_moment(const LoadedBody& of, const Beam& beam, const HeldParts& held, int i, int j,
@@ -188,12 +100,12 @@ Moment pinned_moment(const LoadedBody& of, const Beam& beam, const HeldParts& he
     double moment = 0, most = 0, at = 0;
     for (const BodyLoad& l : loads) {
         const double force = l.force * dot(beam.axis[j], l.push), x = dot(beam.axis[i], l.place);
-        const Span span = held.span_at(x + centre);
+        const HeldSpan span = held.span_at(x + centre);
         const double own = span.moment(force);
         moment += own;
         if (std::fabs(own) <= most) continue;
         most = std::fabs(own);
-        at = x + span.to_largest();
+        at = x + to_largest(span);
     }
     return {std::fabs(moment), at};
 }
@@ -216,7 +128,7 @@ void bend(const LoadedBody& of, std::span<const BodyLoad> loads, std::span<AxisF
     for (int i = 0; i < 3; ++i) {
         const auto is_bent_along = [&](int j) { return i != j && beam.length(i) >= kSlender * beam.length(j); };
         if (!is_bent_along(0) && !is_bent_along(1) && !is_bent_along(2)) continue;
-        const HeldParts held(of, beam.axis[i]);
+        const HeldParts held = of.held_along(beam.axis[i]);
         for (int j = 0; j < 3; ++j) {
             if (!is_bent_along(j)) continue;
             const double bearable = of.strength() * beam.modulus[i][j], least = worst.share * bearable;

@@ -1,58 +1,49 @@
 // A body under loads: the tables that say what it bears.
 #pragma once
-#include "components/body_rows.hpp"
-#include "components/solid_rows.hpp"
+#include <array>
+
+#include "components/world_rows.hpp"
+#include "systems/bodies/held_parts.hpp"
+#include "systems/structure_calls.hpp"
 
 namespace cullet {
 
 inline constexpr double kNeverSnaps = 1e30;  // Pa
 
-/// Where the surface of a solid is.
-struct SolidTables {
-    const Solids& solids;
-    const CookedSolids& cooked;
-    const SkinPoints& points;
-};
+/// What it is made of is asked once a body, not once a load.
+class LoadedBody {
+ public:
+    LoadedBody(const WorldRows& rows, Row<Bodies> of)
+        : bodies(rows.bodies), structures(rows.structures), materials(rows.materials), body(of), rows_(rows) {}
 
-struct LoadedBody {
     const Bodies& bodies;
     const Structures& structures;
-    const Shells& shells;
-    const Vertices& vertices;
     const Materials& materials;
-    const PinBoxes& pin_boxes;
-    const SolidTables& solid;
     Row<Bodies> body;
     bool yields_to_weights = true;  // false: to what the game moves alone
 
     Row<Structures> structure() const { return bodies.structure[body]; }
-    bool is_solid() const { return !is_shell(structures, structure()); }
-    Row<Shells> shell() const { return shell_of(structures, structure()); }
-    /// m: of a solid its mean thickness.
+    bool bears_loads() const { return calls().bears_loads; }
+    /// It is crushed, where what is hollow crumples at its walls.
+    bool is_filled() const { return calls().is_filled; }
+    /// m: of what is filled its mean thickness.
     double wall() const {
-        if (!is_solid()) return double{shells.thickness[shell()]};
-        return 2 * solid_volume() / std::max(double{structures.area[structure()]}, 1e-30);
+        if (wall_ < 0) wall_ = calls().wall(rows_, body);
+        return wall_;
     }
-    /// All that its surface reaches to, from the centre of mass, body axes.
-    template <class Use>
-    void for_each_corner(Use&& use) const {
-        const Vec3d centre = bodies.centre[body];
-        if (is_solid()) {
-            const Row<Solids> row = solid_of(structures, structure());
-            const Range points =
-                solid.solids.is_whole[row] ? solid.cooked.points[solid.solids.cooked[row]] : solid.solids.points[row];
-            for (uint32_t p = points.first; p < points.first + points.count; ++p)
-                use(Vec3d(solid.points.place[p]) - centre);
-            return;
-        }
-        const Range rows = shells.vertices[shell()];
-        for (uint32_t v = rows.first; v < rows.first + rows.count; ++v) {
-            if (vertices.element[v] == kNone) continue;
-            const Vec3d outer = Vec3d(vertices.rest[v]) - centre;
-            use(outer);
-            use(outer + double{vertices.depth[v]} * Vec3d(vertices.inward[v]));
-        }
+    /// Each of these ways, unit, body axes: all that its surface goes to, from the centre of mass.
+    template <size_t N>
+    std::array<Reach, N> reach(const Vec3d (&ways)[N]) const {
+        std::array<Reach, N> along;
+        calls().reach(rows_, body, std::span<const Vec3d>(ways, N), along);
+        return along;
     }
+    HeldParts held_along(Vec3d axis) const {
+        HeldParts held;
+        calls().add_held(rows_, body, axis, held);
+        return held;
+    }
+    uint32_t elements_of_run() const { return calls().elements_of_run(rows_, structure()); }
     Row<Materials> material() const { return structures.material[structure()]; }
     bool is_pinned() const { return static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Static; }
     /// A body that has cracks bears half, as for blows (kWakeShare).
@@ -65,6 +56,12 @@ struct LoadedBody {
         return most > 0 ? strength_share() * most : kNeverSnaps;
     }
     double solid_volume() const { return bodies.mass[body] / materials.density[material()]; }
+
+ private:
+    const StructureCalls& calls() const { return calls_of(structures, structure()); }
+
+    const WorldRows& rows_;
+    mutable double wall_ = -1;  // m; not asked yet
 };
 
 }  // namespace cullet

@@ -6,7 +6,6 @@
 #include "systems/bodies/blows.hpp"
 #include "systems/bodies/thresholds.hpp"
 #include "systems/models.hpp"
-#include "systems/structures/shell/cut_cost.hpp"
 
 namespace cullet {
 namespace {
@@ -108,17 +107,16 @@ struct Opener {
     Blows& blows = o.opening.blows;
     uint64_t cut_units = 0;  // of the cuts that this step makes
 
-    /// A solid is parted step by step, as it breaks.
-    bool is_parted(uint32_t row) const {
-        return is_kind(blows, row, BlowKind::Cut) &&
-               !is_shell(state.structures, state.bodies.structure[blows.body[row]]);
+    uint64_t units_of_cut(uint32_t row) const {
+        const Row<Structures> structure = state.bodies.structure[blows.body[row]];
+        return calls_of(state.structures, structure).units_of_cut(state, structure, blows, row);
     }
+    /// Step by step, as its body breaks.
+    bool is_parted(uint32_t row) const { return is_kind(blows, row, BlowKind::Cut) && units_of_cut(row) == 0; }
     /// Cuts are made whole, in the step that opens their task: at least one, then as long as the frame's units last.
     bool may_cut(uint32_t row) {
-        if (is_parted(row)) return true;
-        const Row<Structures> structure = state.bodies.structure[blows.body[row]];
-        const uint64_t units = state.shells.vertices[state.shell_of(structure)].count * kUnitsOpen +
-                               units_of_cut(state.shells, state.shell_of(structure), blows, row);
+        const uint64_t units = units_of_cut(row);
+        if (units == 0) return true;
         if (cut_units > 0 && cut_units + units > o.settings.units_a_frame) return false;
         cut_units += units;
         return true;
@@ -193,7 +191,7 @@ struct Opener {
                 pay(row);
                 return o.opening.models.may_find_room(state, body) ? Outcome::Waits : Outcome::Gone;
             }
-            // What presses on a solid does not wait until it is parted.
+            // What presses on it does not wait until it is parted.
             state.tasks.is_late[task] = is_parted(row) || (!is_cut && blows.is_paid[row]);
             join(row, task);
             return Outcome::Joined;

@@ -2,11 +2,11 @@
 
 #include "components/body_id.hpp"
 #include "systems/bodies/blows.hpp"
+#include "systems/bodies/cut_by_load.hpp"
 #include "systems/bodies/thresholds.hpp"
 #include "systems/impacts/open_ahead.hpp"
 #include "systems/impacts/open_blows.hpp"
 #include "systems/impacts/opening.hpp"
-#include "systems/impacts/snap.hpp"
 #include "systems/models.hpp"
 #include "systems/systems.hpp"
 
@@ -130,11 +130,8 @@ bool open_snap(Opening& opening, uint32_t q, Events<ImpactEvent>& impact_events)
     const QueuedHits& queued = opening.queued;
     const Row<Bodies> body = queued.body[q];
     const uint64_t seed = queued.frame[q] * 0x10001 + body.index;
-    const Vec3 place = queued.point[q], normal = queued.normal[q];
-    const bool is_asked = is_shell(state.structures, state.bodies.structure[body])
-                              ? snap(opening.blows, state, state.bodies, body, place, normal, seed)
-                              : snap_solid(opening.blows, state, state.bodies, body, place, normal, seed);
-    if (!is_asked) return false;
+    const StructureCalls& calls = calls_of(state.structures, state.bodies.structure[body]);
+    if (!calls.part_by_load(state, opening.blows, body, {queued.point[q], queued.normal[q], seed})) return false;
     const Pose pose = pose_of(state.bodies, body);
     ImpactEvent event = event_of(
         state.bodies,

@@ -32,7 +32,7 @@ struct QueuedHit {
     Vec3 point, normal;  // body frame and axes
     float approach_speed, striker_inverse_mass, striker_radius;
     float load =
-        0;  // N, see Tasks; with no speed: it comes apart across `normal` at `point`, see snap()
+        0;  // N, see Tasks; with no speed: it comes apart across `normal` at `point`, see StructureCalls::part_by_load
 };
 
 struct Opening {

@@ -42,18 +42,17 @@ struct Sides {
     double squeeze() const { return std::max(std::min(along, bears_against), std::min(against, bears_along)); }
 };
 
-// A solid is crushed where it is squeezed with more than its strength on its mean section: blows, which tell what a
-// body bears, only crack it. A shell crumples first.
+// What is filled is crushed where it is squeezed with more than its strength on its mean section: blows, which tell
+// what a body bears, only crack it. What is hollow crumples first.
 double crushed_at(const LoadedBody& of, Vec3d push) {
-    double low = 0, high = 0;
-    of.for_each_corner(
-        [&](Vec3d corner) { low = std::min(low, dot(push, corner)), high = std::max(high, dot(push, corner)); });
+    const Reach along = of.reach({push})[0];
+    const double low = std::min(0.0, along.low), high = std::max(0.0, along.high);
     const double hardness = of.strength_share() * of.materials.crush_strength[of.material()];
     return std::min(hardness, kCrushOverPull * of.strength()) * of.solid_volume() / std::max(high - low, 1e-9);
 }
 
 void squeeze(const LoadedBody& body, std::span<const BodyLoad> loads, double cracks_at, Overload& worst) {
-    const bool is_pinned = body.is_pinned();
+    const bool is_pinned = body.is_pinned(), is_filled = body.is_filled();
     Vec3d ways[kMostWays];
     uint32_t count = 0;
     for (const BodyLoad& of : loads) {
@@ -68,7 +67,7 @@ void squeeze(const LoadedBody& body, std::span<const BodyLoad> loads, double cra
             (c > 0 ? s.bears_along : s.bears_against) += std::fabs(c) * l.bears * l.spread;
         }
         const double force = s.squeeze();
-        const double borne = body.is_solid() ? std::min(cracks_at, crushed_at(body, ways[count - 1])) : cracks_at;
+        const double borne = is_filled ? std::min(cracks_at, crushed_at(body, ways[count - 1])) : cracks_at;
         worst.load = std::max(worst.load, force);
         if (force > worst.share * borne) worst.share = force / borne;
     }
@@ -130,14 +129,14 @@ void spread_flat(const LoadedBody& of, std::span<BodyLoad> loads, double borne) 
 // Which loads go straight through the body into who is backed there; of a pinned one, who bears them bends it no more.
 void find_laid(const LoadedBody& of, const Underlay& under, double near, std::span<BodyLoad> loads, double borne) {
     const double solid = kSolidWalls * of.wall() + near;
-    bool is_solid = true;
+    bool is_massive = true;
     for (BodyLoad& l : loads) {
         if (l.is_backed) continue;
         const double way = under.way_through(l.place, l.push, loads);
         l.is_laid = way >= 0;
-        is_solid = is_solid && way < solid;
+        is_massive = is_massive && way < solid;
     }
-    if (is_solid) spread_flat(of, loads, borne);
+    if (is_massive) spread_flat(of, loads, borne);
     if (!of.is_pinned()) return;
     for (BodyLoad& l : loads) {
         const auto lies_on_it = [&](const BodyLoad& o) {
@@ -195,14 +194,13 @@ double sunk_into(const LoadedBody& of, std::span<const BodyLoad> loads) {
     const bool is_in_play = std::any_of(loads.begin(), loads.end(), [&](const BodyLoad& l) {
         return presses(l) || l.driven_speed > 0 || (is_kind(l, BodyKind::Dynamic) && stays(l));
     });
-    const auto counts = [&](const BodyLoad& l) {
-        return is_in_play && (of.yields_to_weights ? stays(l) : presses(l));
-    };
+    const auto counts = [&](const BodyLoad& l) { return is_in_play && (of.yields_to_weights ? stays(l) : presses(l)); };
+    const bool is_filled = of.is_filled();
     double deepest = 0, sunk = 0;
     for (const BodyLoad& l : loads) {
         deepest = std::max(deepest, l.depth);
         if (of.is_pinned() && counts(l)) sunk = std::max(sunk, l.depth);
-        if (of.is_solid() && presses(l) && is_jammed(l, loads)) sunk = std::max(sunk, l.depth);
+        if (is_filled && presses(l) && is_jammed(l, loads)) sunk = std::max(sunk, l.depth);
     }
     for (const BodyLoad& a : loads) {
         if (!(a.depth > 0) || a.depth + deepest <= sunk || !counts(a)) continue;

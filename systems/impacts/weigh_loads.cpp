@@ -36,8 +36,8 @@ constexpr float kBreakingSpeed = 2, kMostShare = 1.5f, kHarder = 1.5f;
 // What no such blow breaks snaps. A bar that bears tonnes in its middle takes blows of 100 m/s, which bore holes; what
 // drives does not wait for a second run, nor for a first one while it comes so far, as a share of the size.
 constexpr float kFastestRun = 15, kDeepest = 0.05f, kWithCracks = 1.6f;
-// What lies deeper in it than these shares of its size and of its wall has crushed it, whatever the solver says. A
-// solid has no wall.
+// What lies deeper in it than these shares of its size and of its wall has crushed it, whatever the solver says.
+// What is filled has no wall.
 constexpr float kSunkInAll = 0.03f, kSunkInWall = 0.5f;
 constexpr uint8_t kMostRuns = 2, kMostDrivenRuns = 1;
 // A piece that is still whole after so many cuts cannot be cut.
@@ -71,7 +71,7 @@ bool is_deep(const Bodies& bodies, Row<Bodies> body, double way) {
     return way > kDeepest * 2 * bodies.radius[body];
 }
 bool is_sunk(const LoadedBody& of, double deep) {
-    return deep > kSunkInAll * 2 * of.bodies.radius[of.body] && (of.is_solid() || deep > kSunkInWall * of.wall());
+    return deep > kSunkInAll * 2 * of.bodies.radius[of.body] && (of.is_filled() || deep > kSunkInWall * of.wall());
 }
 
 // Whether there is anything to look at.
@@ -90,8 +90,7 @@ bool may_be_overloaded(const LoadedBody& of, std::span<const BodyLoad> loads) {
 
 // It may break, and is not held.
 bool may_be_loaded(const LoadedBody& of, const DamageSettings& settings) {
-    return of.structure().exists() && of.bodies.is_breakable[of.body] &&
-           calls_of(of.structures, of.structure()).bears_loads &&
+    return of.structure().exists() && of.bodies.is_breakable[of.body] && of.bears_loads() &&
            may_be_crushed(of.structures, of.structure(), settings) && !of.bodies.hold_count[of.body] &&
            of.structures.first_crack_force[of.structure()] > 0 && force_borne(of) < kBearsAll;
 }
@@ -174,11 +173,9 @@ bool is_for_a_run(const WorldRows& state, const LoadedBody& of, const Overload& 
     const Row<Bodies> body = of.body;
     if (is_sunk(of, over.sunk) || is_past_blows(of, rules.settings)) return false;
     if (bodies.overload_runs[body] >= (over.is_driven ? kMostDrivenRuns : kMostRuns)) return false;
-    // A load on a solid is told as one, and cracks it at any speed.
-    if (!of.is_solid() && speed_of(state, body, over) > kFastestRun) return false;
-    const uint32_t elements =
-        of.is_solid() ? state.structures.live_elements[of.structure()] : state.shells.elements[of.shell()].count;
-    if (elements < kFewestForARun) return false;
+    // A load on what is filled is told as one, and cracks it at any speed.
+    if (!of.is_filled() && speed_of(state, body, over) > kFastestRun) return false;
+    if (of.elements_of_run() < kFewestForARun) return false;
     const std::optional<RunLength> run = rules.models.length(state, body);
     return !run || !is_deep(bodies, body, way_in(over, step.gravity, seconds_of_run(*run, rules.settings, step.dt)));
 }
@@ -333,8 +330,8 @@ void Weighing::give_way(const LoadedBody& of, const Overload& over, const RigidC
     const bool has_pressed_on = is_busy && is_too_late(rows, body, over, step);
     if (is_busy && !makes_way(rows, blows, Row<Tasks>(bodies.task[body]), has_pressed_on)) return;
     bodies.overloaded_steps[body] = 0;
-    // What cannot be cut gives way by blows alone, however often. The game does not cut solids; a load parts them.
-    const bool is_uncut = !of.is_solid() && rules.models.why_not_cut(rows, body);
+    // What cannot be cut gives way by blows alone, however often. A load parts what is filled all the same.
+    const bool is_uncut = !of.is_filled() && rules.models.why_not_cut(rows, body);
     const bool is_at_end = !is_uncut && is_at_its_end(of, rules.settings);
     if (is_at_end && of.is_pinned()) return;  // it goes nowhere
     const QueuedHit blow = hit_of(rows, body, worst, over, step.frame);
@@ -399,14 +396,7 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, WorldRows& rows, QueuedHi
     const bool is_driven = is_anything_driven(bodies);
     for (uint32_t b = 0; b < bodies.size(); ++b) {
         const Row<Bodies> body(b);
-        LoadedBody of{bodies,
-                      rows.structures,
-                      rows.shells,
-                      rows.vertices,
-                      rows.materials,
-                      rows.pin_boxes,
-                      {rows.solids, rows.cooked_solids, rows.skin_points},
-                      body};
+        LoadedBody of(rows, body);
         if (lists.has_loads(body) && yields_in_shape(of, rules, rows))
             weighing.press(of, found.first(lists.take(body, found)), room.loads);
         bool is_looked_at = lists.has_loads(body) && !yields_in_shape(of, rules, rows) && may_be_loaded(of, settings);

@@ -1,6 +1,7 @@
 #include "systems/structures/shell/structure.hpp"
 
 #include "systems/structures/shell/fragment_calls.hpp"
+#include "systems/structures/shell/load_calls.hpp"
 #include "systems/structures/shell/rest_calls.hpp"
 #include "systems/structures/shell/surface_calls.hpp"
 #include "systems/structures/shell/systems.hpp"
@@ -22,6 +23,7 @@ const StructureCalls& shell_calls() {
         add_fragment_calls(c);
         add_rest_calls(c);
         add_surface_calls(c);
+        add_load_calls(c);
         return c;
     }();
     return calls;

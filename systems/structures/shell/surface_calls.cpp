@@ -5,6 +5,7 @@
 #include "systems/structures/shell/explosion.hpp"
 #include "systems/structures/shell/patch_radius.hpp"
 #include "systems/structures/shell/piece_shape.hpp"
+#include "systems/structures/shell/prism.hpp"
 #include "systems/structures/shell/struck_normal.hpp"
 
 namespace cullet {
@@ -50,6 +51,20 @@ uint32_t drawn_parts(const RunRows& rows, Row<Structures> structure) {
     return rows.shells.elements[rows.shell_of(structure)].count;
 }
 
+void show_cracks(const ShellRows& rows, Row<Structures> structure, CrackLine line, void* user) {
+    const Row<Shells> shell = rows.shell_of(structure);
+    const Range elements = rows.shells.elements[shell], vertices = rows.shells.vertices[shell];
+    for (uint32_t e = elements.first; e < elements.first + elements.count; ++e) {
+        if (rows.elements.flags[e] & kDead) continue;
+        const auto corner = rows.elements.corner[e];
+        for (size_t k = 0; k < 3; ++k) {
+            if (static_cast<EdgeKind>(rows.elements.edge_kind[e][k]) != EdgeKind::Crack) continue;
+            line(user, smoothed_place(rows, vertices.first + corner[k]),
+                 smoothed_place(rows, vertices.first + corner[(k + 1) % 3]));
+        }
+    }
+}
+
 // Its rows of structures and shells stay, with mass and area.
 void empty(RunRows& rows, Row<Structures> structure) {
     release_springs(rows, structure);
@@ -74,10 +89,10 @@ void add_surface_calls(StructureCalls& calls) {
     calls.nearest_point = call<nearest_point>;
     calls.measure_explosion = call<explosion_on>;
     calls.is_cut_by = call<is_cut_by>;
-    calls.bears_loads = true;
     calls.draw = call<draw_body>;
     calls.remember_drawn = call<remember>;
     calls.drawn_parts = call<drawn_parts>;
+    calls.show_cracks = call<show_cracks>;
     calls.empty = call<empty>;
     calls.trouble = call<no_trouble>;
 }

@@ -5,6 +5,7 @@
 #include "systems/structures/tetrahedra/check_solid.hpp"
 #include "systems/structures/tetrahedra/draw_solid.hpp"
 #include "systems/structures/tetrahedra/fragment_calls.hpp"
+#include "systems/structures/tetrahedra/load_calls.hpp"
 #include "systems/structures/tetrahedra/skin.hpp"
 #include "systems/structures/tetrahedra/surface_calls.hpp"
 #include "systems/structures/tetrahedra/systems.hpp"
@@ -64,6 +65,7 @@ const StructureCalls& tetrahedra_calls() {
         c.trouble = call<trouble_of_solid>;
         add_solid_surface_calls(c);
         add_solid_fragment_calls(c);
+        add_solid_load_calls(c);
         return c;
     }();
     return calls;

@@ -118,7 +118,7 @@ template <class... Asked>
 bool always(Asked...) {
     return true;
 }
-// Nothing follows from the drawn mesh.
+// Nothing follows from the drawn mesh, and no edge of it is a crack.
 template <class... Asked>
 void nothing(Asked...) {}
 
@@ -135,10 +135,10 @@ void add_solid_surface_calls(StructureCalls& calls) {
     calls.nearest_point = call<nearest_point>;
     calls.measure_explosion = call<measure>;
     calls.is_cut_by = always;
-    calls.bears_loads = true;
     calls.draw = call<draw_solid_body>;
     calls.remember_drawn = nothing;
     calls.drawn_parts = call<drawn_parts>;
+    calls.show_cracks = nothing;
 }
 
 }  // namespace cullet

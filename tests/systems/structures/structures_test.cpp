@@ -13,7 +13,7 @@
 namespace cullet {
 namespace {
 
-// Calls are pointers to functions: one that is missing is zero. Only bears_loads is a flag.
+// Calls are pointers to functions: one that is missing is zero. Only bears_loads and is_filled are flags, in one word.
 TEST(Structures, EachKindGivesEachCall) {
     using Words = std::array<uintptr_t, sizeof(StructureCalls) / sizeof(uintptr_t)>;
     State state;
