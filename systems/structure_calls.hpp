@@ -31,7 +31,6 @@ struct RestMotion {
 /// How far a body goes along a direction, from its centre of mass, m.
 struct Reach {
     double low = 1e30, high = -1e30;
-    double size() const { return high - low; }
     void add(double at) { low = std::min(low, at), high = std::max(high, at); }
 };
 
