@@ -7,7 +7,7 @@ namespace cullet {
 /// A full table refuses the later rows and names the limit; nothing is lost.
 struct Limits {
     uint32_t bodies = 4096;
-    uint32_t shells = 4096;
+    uint32_t structures = 4096;
     uint32_t vertices = 1u << 20;
     uint32_t elements = 1u << 21;
     uint32_t tasks = 64;

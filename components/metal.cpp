@@ -7,7 +7,7 @@ Row<MetalShells> make_metal(MetalTables rows, Row<Structures> structure, const M
     CULLET_ASSERT(!metal_of(rows, structure).exists(), "structure %u is of metal already", structure.index);
     Range taken;
     if (!rows.metal_shells.take(1, taken)) {
-        if (full) *full = "limits.shells";
+        if (full) *full = "limits.structures";
         return {};
     }
     const Row<MetalShells> row(taken.first);

@@ -10,7 +10,7 @@ namespace cullet {
 /// Of metal. Sub-shells: one for a hundred triangles, at least sixteen a shell. A vertex has about 6 edges and a tie,
 /// each twice.
 inline uint32_t sub_shell_limit(const Limits& l) {
-    return l.elements / 64 + 16 * l.shells;
+    return l.elements / 64 + 16 * l.structures;
 }
 inline uint32_t metal_spring_limit(const Limits& l) {
     return l.elements * 4;
@@ -19,13 +19,13 @@ inline uint32_t metal_spring_limit(const Limits& l) {
 /// Sub-shells and springs of shells that are of metal, and the impacts on them.
 struct TablesOfMetal {
     Limits limits;
-    MetalShells metal_shells{limits.shells, limits.shells};
-    MetalOwners metal_owners{limits.shells};
-    SubShells sub_shells{sub_shell_limit(limits), limits.shells};
-    SubShellBorders sub_shell_borders{8 * sub_shell_limit(limits), limits.shells};
-    MetalVertices metal_vertices{limits.vertices, limits.shells};
-    MetalElements metal_elements{limits.elements, limits.shells};
-    MetalSprings metal_springs{metal_spring_limit(limits), limits.shells};
+    MetalShells metal_shells{limits.structures, limits.structures};
+    MetalOwners metal_owners{limits.structures};
+    SubShells sub_shells{sub_shell_limit(limits), limits.structures};
+    SubShellBorders sub_shell_borders{8 * sub_shell_limit(limits), limits.structures};
+    MetalVertices metal_vertices{limits.vertices, limits.structures};
+    MetalElements metal_elements{limits.elements, limits.structures};
+    MetalSprings metal_springs{metal_spring_limit(limits), limits.structures};
     MetalRuns metal_runs{limits.tasks};
     MetalImpacts metal_impacts{limits.bodies};
     StrikerFronts striker_fronts{limits.tasks * kFrontRows};

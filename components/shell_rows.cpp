@@ -36,12 +36,12 @@ Row<Structures> make_shell_unclear(ShellRows& rows, const ShellRoom& room, const
     Shells& s = rows.shells;
     Range row, shell_row;
     if (!structures.take(1, row)) {
-        if (full) *full = "limits.shells";
+        if (full) *full = "limits.structures";
         return {};
     }
     if (!s.take(1, shell_row)) {
         structures.give_back(row);
-        if (full) *full = "limits.shells";
+        if (full) *full = "limits.structures";
         return {};
     }
     const Row<Structures> structure(row.first);

@@ -55,22 +55,22 @@ struct PartRows : StructureRows, TablesOfParts {
 /// Shells, what holds them together, and the springs of those that have some.
 struct TablesOfShells {
     Limits limits;
-    Shells shells{limits.shells, limits.shells};
-    Vertices vertices{limits.vertices, limits.shells};
-    Elements elements{limits.elements, limits.shells};
+    Shells shells{limits.structures, limits.structures};
+    Vertices vertices{limits.vertices, limits.structures};
+    Elements elements{limits.elements, limits.structures};
     TriangleSprings triangle_springs{limits.elements};
-    Hinges hinges{hinge_limit(limits), limits.shells};
-    StiffnessPacks stiffness_packs{pack_limit(limits), limits.shells};
-    StiffnessBlocks stiffness_blocks{slot_limit(limits), limits.shells};
-    StiffnessLinks stiffness_links{slot_limit(limits), limits.shells};
-    ShellSprings shell_springs{limits.shells, limits.shells};
-    Springs springs{spring_limit(limits), limits.shells};
-    LayerSprings layer_springs{spring_limit(limits), limits.shells};
-    ElementSprings element_springs{limits.elements, limits.shells};
-    SpringPacks spring_packs{pack_limit(limits), limits.shells};
-    SpringSlots spring_slots{slot_limit(limits), limits.shells};
-    LayerSlots layer_slots{slot_limit(limits), limits.shells};
-    Twins twins{limits.vertices, limits.shells};
+    Hinges hinges{hinge_limit(limits), limits.structures};
+    StiffnessPacks stiffness_packs{pack_limit(limits), limits.structures};
+    StiffnessBlocks stiffness_blocks{slot_limit(limits), limits.structures};
+    StiffnessLinks stiffness_links{slot_limit(limits), limits.structures};
+    ShellSprings shell_springs{limits.structures, limits.structures};
+    Springs springs{spring_limit(limits), limits.structures};
+    LayerSprings layer_springs{spring_limit(limits), limits.structures};
+    ElementSprings element_springs{limits.elements, limits.structures};
+    SpringPacks spring_packs{pack_limit(limits), limits.structures};
+    SpringSlots spring_slots{slot_limit(limits), limits.structures};
+    LayerSlots layer_slots{slot_limit(limits), limits.structures};
+    Twins twins{limits.vertices, limits.structures};
     VertexBlocks vertex_blocks{limits.vertices / kVerticesPerBlock + 1};
 };
 struct ShellRows : PartRows, TablesOfShells {

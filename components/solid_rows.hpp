@@ -27,11 +27,11 @@ struct TablesOfSolids {
     SolidBondRows solid_bonds{lattice_limit(limits), cooked_limit(limits)};
     SolidPatches solid_patches{lattice_limit(limits), cooked_limit(limits)};
     MeshTriangles mesh_triangles{lattice_limit(limits), cooked_limit(limits)};
-    Solids solids{limits.shells, limits.shells};
-    SolidMembers solid_members{lattice_limit(limits) / 2, limits.shells};
-    MovedNodes moved_nodes{lattice_limit(limits) / 2, limits.shells};
-    SkinPoints skin_points{limits.vertices, limits.shells + cooked_limit(limits)};
-    SkinTriangles skin_triangles{limits.elements, limits.shells + cooked_limit(limits)};
+    Solids solids{limits.structures, limits.structures};
+    SolidMembers solid_members{lattice_limit(limits) / 2, limits.structures};
+    MovedNodes moved_nodes{lattice_limit(limits) / 2, limits.structures};
+    SkinPoints skin_points{limits.vertices, limits.structures + cooked_limit(limits)};
+    SkinTriangles skin_triangles{limits.elements, limits.structures + cooked_limit(limits)};
 };
 /// What follows from what was cooked, and what breaks work in: no state, made again where it is missing. None until
 /// something may break.

@@ -63,7 +63,7 @@ Row<ShellSprings> make_springs(ShellRows& state, Row<Structures> structure, cons
     CULLET_ASSERT(!springs_of(state, structure).exists(), "structure %u has springs", structure.index);
     const Row<ShellSprings> row(state.shell_springs.pool.take(1));
     if (!row.exists()) {
-        if (full) *full = "limits.shells";
+        if (full) *full = "limits.structures";
         return {};
     }
     if (row >= own.size()) own.append(row + 1 - own.size());

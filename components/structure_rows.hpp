@@ -22,9 +22,9 @@ inline uint32_t cell_limit(const Limits& l) {
 /// What bodies are made of, as far as all kinds of structures are alike.
 struct TablesOfStructures {
     Limits limits;
-    Structures structures{limits.shells, limits.shells};
-    Cells cells{cell_limit(limits), limits.shells};
-    HullPoints hull_points{cell_limit(limits) * 32, limits.shells};
+    Structures structures{limits.structures, limits.structures};
+    Cells cells{cell_limit(limits), limits.structures};
+    HullPoints hull_points{cell_limit(limits) * 32, limits.structures};
 };
 struct StructureRows : MaterialRows, TablesOfStructures {
     StructureRows(const Limits& l, const MaterialRows& of_what) : MaterialRows(of_what), TablesOfStructures{l} {}

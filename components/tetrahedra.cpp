@@ -93,12 +93,12 @@ Row<Structures> make_solid(SolidRows rows, Row<CookedSolids> cooked, const Solid
     Structures& structures = rows.structures;
     Range row, solid_row;
     if (!structures.take(1, row)) {
-        if (full) *full = "limits.shells";
+        if (full) *full = "limits.structures";
         return {};
     }
     if (!rows.solids.take(1, solid_row)) {
         structures.give_back(row);
-        if (full) *full = "limits.shells";
+        if (full) *full = "limits.structures";
         return {};
     }
     const Row<Structures> structure(row.first);

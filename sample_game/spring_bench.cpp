@@ -16,7 +16,7 @@ namespace {
 
 Limits bench_limits(size_t vertices, size_t elements) {
     Limits limits;
-    limits.bodies = limits.shells = 8;
+    limits.bodies = limits.structures = 8;
     limits.tasks = limits.models = 1;
     limits.vertices = std::max<uint32_t>(1024, static_cast<uint32_t>(4 * vertices + 1024));
     limits.elements = std::max<uint32_t>(2048, static_cast<uint32_t>(4 * elements));

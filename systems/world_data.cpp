@@ -13,7 +13,7 @@ namespace {
 Limits limits_of(const LimitSettings& l) {
     Limits limits;
     limits.bodies = l.bodies;
-    limits.shells = l.bodies + l.models + 2 * l.open_hits;
+    limits.structures = l.bodies + l.models + 2 * l.open_hits;
     limits.vertices = l.vertices;
     limits.elements = l.elements;
     limits.tasks = l.open_hits;

@@ -5,7 +5,7 @@ namespace cullet {
 Limits cooking_limits(uint32_t vertices, uint32_t elements) {
     Limits limits;
     limits.bodies = limits.models = limits.debris = 1;
-    limits.shells = 8;
+    limits.structures = 8;
     limits.tasks = 1;
     limits.vertices = 5 * vertices + 8192;
     limits.elements = 5 * elements + 16384;

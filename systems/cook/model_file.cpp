@@ -88,7 +88,7 @@ void take_material(ByteReader& reader, MaterialSettings& material, Vec3& grain) 
 /// For one shell without rows.
 std::unique_ptr<Workbench> make_workbench_of_one() {
     return std::make_unique<Workbench>(
-        Limits{.bodies = 1, .shells = 1, .vertices = 64, .elements = 64, .tasks = 1, .models = 1});
+        Limits{.bodies = 1, .structures = 1, .vertices = 64, .elements = 64, .tasks = 1, .models = 1});
 }
 
 /// Everything of the payload, with the rows still in the bytes.
@@ -159,7 +159,7 @@ enum Part {
 /// Room for the shell alone. Components derive the limits of the smaller tables from those of vertices and elements.
 Limits limits_for(const std::vector<FoundTable>& parts) {
     Limits limits = cooking_limits(0, 0);
-    limits.shells = 2;
+    limits.structures = 2;
     const auto rows = [&](Part part) { return parts[part].rows; };
     const uint32_t slots = std::max(rows(kBlocks), rows(kLinks)), points = rows(kPoints) / 16 + 1;
     limits.vertices = std::max({rows(kVertices), slots / 12 * 8 + 8, 8 * rows(kCells), 8 * points}) + 1024;

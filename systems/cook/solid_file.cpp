@@ -10,7 +10,7 @@ namespace {
 
 std::unique_ptr<Workbench> make_workbench_of_one() {
     return std::make_unique<Workbench>(
-        Limits{.bodies = 1, .shells = 1, .vertices = 64, .elements = 64, .tasks = 1, .models = 1});
+        Limits{.bodies = 1, .structures = 1, .vertices = 64, .elements = 64, .tasks = 1, .models = 1});
 }
 
 struct OneSolid {
@@ -97,7 +97,7 @@ Limits limits_for(const FoundSolid& found) {
     for (const auto* parts : {&found.cooked_parts, &found.parts})
         for (const FoundTable& part : *parts) most = std::max(most, part.rows);
     Limits limits = cooking_limits(0, 0);
-    limits.shells = 2;
+    limits.structures = 2;
     most = std::min(most, 1u << 24);  // more is refused for want of room
     limits.vertices = 8 * most + 1024;
     limits.elements = 8 * most + 1024;

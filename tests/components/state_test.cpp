@@ -14,7 +14,7 @@ namespace {
 
 Limits small_limits() {
     Limits limits;
-    limits.bodies = 32, limits.shells = 16, limits.vertices = 4096, limits.elements = 8192, limits.tasks = 2;
+    limits.bodies = 32, limits.structures = 16, limits.vertices = 4096, limits.elements = 8192, limits.tasks = 2;
     limits.models = 4, limits.view_vertices = 1024, limits.debris = 16;
     return limits;
 }
@@ -162,7 +162,7 @@ TEST(State, AFullTableNamesItsLimitAndEverythingGoesBack) {
     for (uint32_t n = 0; n < 16; ++n) ASSERT_TRUE(make_shell(state, little).exists());
     const char* full = nullptr;
     EXPECT_FALSE(make_shell(state, little, &full).exists());
-    EXPECT_STREQ(full, "limits.shells");
+    EXPECT_STREQ(full, "limits.structures");
 }
 
 TEST(State, TheLastUserGivesTheRowsBack) {

@@ -106,7 +106,7 @@ Shell make_shell_of(const TestSurface& surface, uint32_t spare_vertices, uint32_
     const uint32_t vertex_count = static_cast<uint32_t>(surface.place.size());
     const uint32_t element_count = static_cast<uint32_t>(surface.triangle.size());
     Limits limits;
-    limits.bodies = limits.shells = limits.tasks = 4;
+    limits.bodies = limits.structures = limits.tasks = 4;
     limits.models = 1;
     limits.vertices = 1u << 16;
     limits.elements = 1u << 17;

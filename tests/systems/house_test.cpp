@@ -31,7 +31,7 @@ constexpr uint32_t kSystemsOfManyTables = 46;
 constexpr uint32_t kPassesOfAFrame = 55;
 constexpr uint32_t kFilesWithAModel = 0;
 constexpr uint32_t kFilesWithAShell = 0;   // of births and tasks
-constexpr uint32_t kSharedWithAShell = 2;  // of the other shared folders
+constexpr uint32_t kSharedWithAShell = 0;  // of the other shared folders
 
 struct Source {
     std::string path;    // "systems/structures/shell/ring.cpp"

@@ -56,7 +56,7 @@ InnerLoop<LoopWorld> empty_loop() {
 /// Of 4 shells, bodies and tasks: shell k is of model k / 2, body k has it, task k is of body k.
 std::unique_ptr<State> small_state() {
     Limits limits;
-    limits.bodies = limits.shells = limits.tasks = limits.models = limits.debris = 8;
+    limits.bodies = limits.structures = limits.tasks = limits.models = limits.debris = 8;
     limits.vertices = limits.elements = limits.view_vertices = 4096;
     auto state = std::make_unique<State>(limits);
     if (state->tasks.size() < 4) state->tasks.append(4);
