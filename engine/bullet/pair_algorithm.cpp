@@ -324,8 +324,11 @@ void PairAlgorithm::keep_to_open_faces(Patch& patch, PairRecord& record, const B
         record.guess = turned;
         patch = along;
     };
+    // First a piece that no solver moves: the faces of a shard or a pane are as wavy as its cells.
+    const bool is_a_first = is_firm(a) && !is_firm(b) && !hull_a.one_sided;
+    if (is_a_first) keep(a, hull_a, b, hull_b, true);
     keep(b, hull_b, a, hull_a, false);
-    keep(a, hull_a, b, hull_b, true);
+    if (!is_a_first) keep(a, hull_a, b, hull_b, true);
 }
 
 void PairAlgorithm::meet(PairRecord& record, const Body& a, const Mat3& rotation_a, const Body& b,
