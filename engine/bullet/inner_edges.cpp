@@ -244,17 +244,31 @@ Vec3 out_of_face(const Body& body, const Hull& hull, uint32_t face) {
     return hull.one_sided ? hull.face_normal[0] : rotation_of(body.fresh_at) * hull.face_normal[face];
 }
 
-// A neighbour goes on before the face, and nothing of the face stands out of the neighbour there.
-bool is_face_covered(const Surroundings& around, const Touched& touched, uint32_t face, Vec3 normal, Vec3 place,
-                     Vec3 level = {}) {
+/// What neighbours do to a face at a place.
+struct Cover {
+    bool is_whole = false;   // one goes on before the face, and nothing of the face stands out of that there
+    bool is_in_way = false;  // one rises before it, if only a little
+};
+
+// A neighbour that covers the face is in its way as well, so that it does not matter which of them is met first.
+Cover cover_of(const Surroundings& around, const Touched& touched, uint32_t face, Vec3 normal, Vec3 place,
+               Vec3 level = {}) {
     const float flush = kFlush * scale_of(touched.hull, touched.piece);
+    Cover cover;
     const auto covers = [&](const Beside& beside) {
+        cover.is_in_way |= beside.leads_in > kRise;
         if (beside.is_before && is_firm(touched.body)) return true;
         if (beside.leads_in < kBefore || !beside.has_way_out) return false;
         if (!is_firm(touched.body) && !beside.is_level) return false;
         return !is_on_face(touched.body, touched.hull, face, place + beside.way_out, flush);
     };
-    return any_beside(around, touched, place, normal, covers, level);
+    cover.is_whole = any_beside(around, touched, place, normal, covers, level);
+    return cover;
+}
+
+bool is_face_covered(const Surroundings& around, const Touched& touched, uint32_t face, Vec3 normal, Vec3 place,
+                     Vec3 level = {}) {
+    return cover_of(around, touched, face, normal, place, level).is_whole;
 }
 
 // How far any neighbour at the place lies in the way of a normal, see Beside::leads_in.
@@ -302,22 +316,26 @@ bool find_open_face_from(const Surroundings& around, const Touched& touched, Vec
     }
     const double as_far = 2 * static_cast<double>(kFlush * scale_of(hull, touched.piece));
     double first_gap = 0;
-    float least = kFar;
+    float least = kFar;  // it is not asked before there is a choice
+    bool is_any = false;
+    Vec3 place;  // on the face that `normal` is of
     for (int k = 0; k < kFaces; ++k) {
         const auto most = std::max_element(gap.begin(), gap.begin() + hull.face_count);
         if (most == gap.begin() + hull.face_count || *most <= -1e30) break;
-        if (least < kFar && *most < first_gap - as_far) break;
+        if (is_any && *most < first_gap - as_far) break;
+        if (is_any && !(least < kFar)) least = most_in_the_way(around, touched, normal, place);
+        if (!(least > kRise)) break;
         const auto face = static_cast<uint32_t>(most - gap.begin());
-        const Vec3 out = out_of_face(touched.body, hull, face), place = core + margin * out;
-        if (!is_face_covered(around, touched, face, out, place)) {
-            if (!(least < kFar)) first_gap = *most;
-            const float leads = most_in_the_way(around, touched, out, place);
-            if (leads < least) least = leads, normal = out;
-            if (!(least > kRise)) return true;
+        const Vec3 out = out_of_face(touched.body, hull, face), at = core + margin * out;
+        if (!is_face_covered(around, touched, face, out, at)) {
+            const float leads = is_any ? most_in_the_way(around, touched, out, at) : kFar;
+            if (!is_any) first_gap = *most;
+            if (!is_any || leads < least) least = leads, normal = out, place = at;
+            is_any = true;
         }
         *most = -1e30;
     }
-    return least < kFar;
+    return is_any;
 }
 
 }  // namespace
@@ -406,16 +424,17 @@ Push turn_to_open_face(const Surroundings& around, const Touched& touched, std::
     if (!is_firm(touched.body)) return turn_to_flush_face(around, touched, places, normal);
     const Facing facing = facing_face(touched, normal);
     const Vec3 wanted = normal, touch = touched_place(touched, places, normal);
-    const auto leads_in = [](const Beside& beside) { return beside.leads_in > kRise; };
     if (facing.cosine > kFacing) {
-        const bool is_open = std::any_of(places.begin(), places.end(), [&](Vec3 place) {
-            return !is_face_covered(around, touched, facing.face, wanted, place);
-        });
-        if (is_open &&
-            (!has_face_beside(touched.hull, facing.face) || !any_beside(around, touched, touch, wanted, leads_in)))
-            return Push::AsFound;
+        bool is_open = false, is_in_way = false;
+        for (size_t k = 0; k < places.size() && !is_open; ++k) {
+            const Cover cover = cover_of(around, touched, facing.face, wanted, places[k]);
+            is_open = !cover.is_whole;
+            if (k == 0) is_in_way = cover.is_in_way;
+        }
+        if (is_open && !(is_in_way && has_face_beside(touched.hull, facing.face))) return Push::AsFound;
         if (touched.hull.one_sided) return Push::None;
-    } else if (!any_beside(around, touched, touch, wanted, leads_in)) {
+    } else if (!any_beside(around, touched, touch, wanted,
+                           [](const Beside& beside) { return beside.leads_in > kRise; })) {
         return Push::AsFound;
     }
     const Vec3 core = touch - touched.hull.margin * wanted;
