@@ -290,6 +290,7 @@ void PairAlgorithm::keep_to_open_faces(Patch& patch, PairRecord& record, const B
                                        const Body& b, const Hull& hull_b) {
     const float inside = record.is_pushed_out ? kOutOfInside : kDeepInside;
     record.is_pushed_out = false;
+    if (!may_have_inner_edges(a, hull_a) && !may_have_inner_edges(b, hull_b)) return;
     const auto keep = [&](const Body& body, const Hull& hull, const Body& other, const Hull& piece, bool is_a) {
         if (patch.count == 0 || !may_have_inner_edges(body, hull)) return;
         const float scale = scale_of(hull, piece);
