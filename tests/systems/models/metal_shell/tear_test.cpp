@@ -229,6 +229,24 @@ TEST(Tear, AsOftenAsItIsShot) {
     expect_sound(world);
 }
 
+// A sheet waits for nothing after a hit: shots in frames that follow one another all go through, wherever shards of the
+// ones before still scrape the sheet.
+TEST(Tear, AsFastAsItIsShot) {
+    for (const int frames_between : {1, 2, 3, 6, 7}) {
+        World world = test::make_world(settings_on(2));
+        spawn_panel(world, panel());
+        std::vector<BodyId> balls;
+        for (int shot = 0; shot < 4; ++shot) {
+            const float across = 0.2f * static_cast<float>(shot) - 0.3f;
+            balls.push_back(value_of(world.add_sphere(test::ball_at({across, 1.25f, 0}, 5, 70, 0.04f))));
+            for (int frame = 0; frame < frames_between; ++frame) world.step();
+        }
+        for (int frame = 0; frame < 4; ++frame) world.step();
+        for (const BodyId ball : balls)
+            EXPECT_LT(value_of(world.motion(ball)).velocity.z, -50) << frames_between << " frames between";
+    }
+}
+
 TEST(Tear, ShotsOnOneSpotStaySane) {
     World world = test::make_world(settings_on(2));
     spawn_panel(world, panel());
