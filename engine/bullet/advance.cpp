@@ -347,11 +347,13 @@ double touch_fraction(const Surroundings& around, const Mover& a, const Hull& hu
             }
             if (is_at_stop || gap < (round == 0 ? scale * kTouching : stop)) {
                 const Meeting meeting{around, a, b, hull_a, hull_b, *now_a, *now_b, at_a, at_b, closest};
-                Push push = meeting.turn_on(true, axis);
-                if (push == Push::Turned) holder = &b;
+                // First that which no solver moves: the faces of a shard or a pane are as wavy as its cells.
+                const bool is_b_first = is_firm(*b.body) || !is_firm(*a.body);
+                Push push = meeting.turn_on(is_b_first, axis);
+                if (push == Push::Turned) holder = is_b_first ? &b : &a;
                 if (push == Push::AsFound) {
-                    push = meeting.turn_on(false, axis);
-                    if (push == Push::Turned) holder = &a;
+                    push = meeting.turn_on(!is_b_first, axis);
+                    if (push == Push::Turned) holder = is_b_first ? &a : &b;
                 }
                 if (push == Push::None) return limit;
                 const bool is_beside = push == Push::Turned;

@@ -1012,6 +1012,14 @@ void BulletWorld::take_back_gravity(float dt) {
     }
 }
 
+void BulletWorld::carry(const Body& body, btTransform& moved, float dt) {
+    const Vec3 by = sweeper_.carry(*this, body, dt);
+    moved.setOrigin(moved.getOrigin() + to_bullet(by));
+    if (!CULLET_CHECKS_ON) return;
+    const double work = -static_cast<double>(body.mass) * static_cast<double>(dot(from_bullet(gravity_), by));
+    work_done_.driven += work, work_done_.ahead -= work;
+}
+
 void BulletWorld::integrate(float dt) {
     std::sort(newborn_.begin(), newborn_.end(), [](const NewbornPieces& p, const NewbornPieces& q) {
         return std::tie(p.a, p.b, p.piece_a, p.piece_b) < std::tie(q.a, q.b, q.piece_a, q.piece_b);
@@ -1027,6 +1035,7 @@ void BulletWorld::integrate(float dt) {
         btTransformUtil::integrateTransform(body.bullet->getWorldTransform(),
                                             body.bullet->getLinearVelocity() + to_bullet(body.glance),
                                             body.bullet->getAngularVelocity(), body.moved_fraction * dt, moved);
+        if (body.moved_fraction < 1) carry(body, moved, dt);
         body.bullet->proceedToTransform(moved);
     }
     bring_all_back();

@@ -172,6 +172,7 @@ class BulletWorld final : public RigidWorld {
     double falling_power() const;
     void limit_closing(float dt);
     void take_back_gravity(float dt);
+    void carry(const Body& body, btTransform& moved, float dt);
     void integrate(float dt);
     /// Calls call(mesh body) for static triangles near the box that the body meets.
     template <class Call>

@@ -52,6 +52,20 @@ void visit_leading(const Body& body, const Hull& hull, Vec3 outwards, float with
         if (dot(points[k], outwards) > most - within) found(points.centre + points[k]);
 }
 
+// Kinematic bodies that lie this near to each other and move against each other by less than this are side by side and
+// move as one, as in inner_edges.cpp.
+constexpr float kBeside = 0.0005f;  // m
+constexpr float kApart = 0.03f;     // m/s
+constexpr float kSlack = 1e-5f;     // m a step, as good as none
+
+Vec3 middle_of_both(const Box& a, const Box& b) {
+    const auto middle = [](float low_a, float low_b, float high_a, float high_b) {
+        return 0.5f * (std::max(low_a, low_b) + std::min(high_a, high_b));
+    };
+    return {middle(a.low.x, b.low.x, a.high.x, b.high.x), middle(a.low.y, b.low.y, a.high.y, b.high.y),
+            middle(a.low.z, b.low.z, a.high.z, b.high.z)};
+}
+
 // Where the point of a body was before the step that is now at `point`.
 Vec3 was_at(const Body& body, Vec3 point) {
     const btTransform now = body.hulls_at(body.bullet->getWorldTransform());
@@ -59,6 +73,57 @@ Vec3 was_at(const Body& body, Vec3 point) {
 }
 
 }  // namespace
+
+// Of its own contacts one is with somebody else, who stands behind it along the normal: what a press strikes goes
+// nowhere then.
+bool Sweeper::is_borne(const BulletWorld& world, const Body& body, RigidId driven, Vec3 normal) {
+    bool is_any = false;
+    const auto look_at = [&](uint32_t id) {
+        if (is_any || id == body.id || id == driven) return;
+        const PairAlgorithm* pair = world.pairs_.memory_of(std::min(id, body.id), std::max(id, body.id));
+        if (!pair) return;
+        pair->visit_manifolds([&](const btPersistentManifold& manifold, const PairRecord&) {
+            for (int k = 0; k < manifold.getNumContacts(); ++k) {
+                const Vec3 towards_a = from_bullet(manifold.getContactPoint(k).m_normalWorldOnB);
+                is_any |= dot(body.id < id ? towards_a : -towards_a, normal) < -0.1f;
+            }
+        });
+    };
+    world.tree_.visit(world.tree_.box(body.leaf), look_at);
+    return is_any;
+}
+
+// What is driven takes along whom it strikes, see carry(). Of several that strike a body the first one does.
+void Sweeper::take_along(const BulletWorld& world, const Body& body, const Hull& hull, const Body& driven,
+                         const Hull& driven_hull, const Touch& touch) {
+    if (driven.kind != RigidKind::Kinematic || !body.is_fast || body.kind == RigidKind::Kinematic) return;
+    Carrier& carrier = carriers_[body.id];
+    if (carrier.driven != kNoRigid && (carrier.driven != driven.id || carrier.at <= touch.at)) return;
+    if (is_before(body, driven.id, touch.normal) || is_borne(world, body, driven.id, touch.normal)) return;
+    carrier = {driven.id, touch.normal, hull.world.centre, scale_of(hull, driven_hull) * kContactRange, touch.at};
+}
+
+// The driven one is stopped where it would go farther with the body than that may be carried, or where the body does
+// not make way: it was too slow to be swept, or another driven one carries it, otherwise than this one goes.
+float Sweeper::driven_until(const BulletWorld& world, const Body& driven, const Body& other, Vec3 normal, float at,
+                            float dt) const {
+    const Carrier& carrier = carriers_[other.id];
+    if (carrier.driven == kNoRigid) return at;
+    const float way = dt * dot(world.velocity_at(driven, carrier.place), normal);
+    const float carried = dt * carried_speed(world, carrier) * dot(carrier.normal, normal);
+    if (way > carried + kSlack) return at;
+    return way > 0 ? at + carrier.most / way : 1;
+}
+
+// Something else stopped the body and stands in the way along `normal`.
+bool Sweeper::is_before(const Body& body, RigidId driven, Vec3 normal) const {
+    const Brake& brake = brakes_[body.id];
+    return brake.other != kNoRigid && brake.other != driven && dot(brake.normal, normal) < -0.1f;
+}
+
+float Sweeper::carried_speed(const BulletWorld& world, const Carrier& carrier) {
+    return dot(world.velocity_at(world.bodies_[carrier.driven], carrier.place), carrier.normal);
+}
 
 void Sweeper::stop(Body& body, const Hull& hull, const Body& other, const Hull& other_hull, const Touch& touch) {
     if (!body.is_fast || !(touch.at < body.moved_fraction)) return;
@@ -71,6 +136,16 @@ void Sweeper::stop(Body& body, const Hull& hull, const Body& other, const Hull& 
                         other_hull.one_sided ? nullptr : &other_hull,
                         touch.normal,
                         touch.is_new};
+}
+
+// m: along their normal alone, for the rest of the step, as if both had been looked at from the driven one. Left behind
+// a body would lie deep in a lift that rises, a step later, and hover over one that sinks. Up it goes no farther than
+// contacts reach: that way is not swept. Down it would have gone faster by itself.
+Vec3 Sweeper::carry(const BulletWorld& world, const Body& body, float dt) const {
+    const Carrier& carrier = carriers_[body.id];
+    if (carrier.driven == kNoRigid || !body.is_free() || is_before(body, carrier.driven, carrier.normal)) return {};
+    const float rest = dt * std::max(0.0f, world.bodies_[carrier.driven].moved_fraction - carrier.at);
+    return std::min(rest * carried_speed(world, carrier), carrier.most) * carrier.normal;
 }
 
 // What stopped a body near the start of its way takes the speed that leads into it, as a blow without restitution.
@@ -211,9 +286,18 @@ void Sweeper::visit_touches(const BulletWorld& world, Body& a, Body& b, float dt
 }
 
 void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
-    visit_touches(world, a, b, dt, world.scratches_.own(), [&](const Hull& p, const Hull& q, const Touch& touch) {
-        stop(a, p, b, q, touch);
-        stop(b, q, a, p, {-touch.normal, touch.at, touch.is_new});
+    for (const auto& [body, driven] : {std::pair(&a, &b), std::pair(&b, &a)})
+        if (carriers_[body->id].driven == driven->id) carriers_[body->id] = {};
+    const auto until = [&](const Body& body, const Body& other, const Touch& touch) {
+        const bool is_driven = body.kind == RigidKind::Kinematic;
+        return is_driven ? driven_until(world, body, other, -touch.normal, touch.at, dt) : touch.at;
+    };
+    visit_touches(world, a, b, dt, world.scratches_.own(), [&](const Hull& p, const Hull& q, const Touch& of_a) {
+        const Touch of_b{-of_a.normal, of_a.at, of_a.is_new};
+        take_along(world, a, p, b, q, of_a);
+        take_along(world, b, q, a, p, of_b);
+        stop(a, p, b, q, {of_a.normal, until(a, b, of_a), of_a.is_new});
+        stop(b, q, a, p, {of_b.normal, until(b, a, of_b), of_b.is_new});
     });
 }
 
@@ -231,10 +315,10 @@ void Sweeper::list_fast(BulletWorld& world, float dt) {
         if (!body.is_used) continue;
         thinnest = std::min(thinnest, body.thickness), least_scale = std::min(least_scale, scale_of(body));
     }
-    fast_.clear();
+    fast_.clear(), driven_.clear();
     for (RigidId id = 0; id < world.body_end_; ++id) {
         Body& body = world.bodies_[id];
-        brakes_[id].other = kNoRigid;
+        brakes_[id].other = carriers_[id].driven = kNoRigid;
         if (!body.is_used || body.kind == RigidKind::Static) continue;
         body.moved_fraction = 1;
         body.glance = {};
@@ -242,6 +326,7 @@ void Sweeper::list_fast(BulletWorld& world, float dt) {
         const Mover mover = mover_of(body);
         if (!is_far(travel(mover, dt), least_scale, thinnest)) continue;
         body.is_fast = true;
+        if (body.kind == RigidKind::Kinematic) driven_.push_back(static_cast<uint32_t>(fast_.size()));
         fast_.push_back({id, swept_box(body.shape.box, mover, body.reach, dt), -1});
     }
 }
@@ -398,6 +483,47 @@ bool Sweeper::sweep_fast(BulletWorld& world, uint32_t k, int round, float dt) {
     return is_any;
 }
 
+// Fast kinematic bodies that stand beside the k-th fast one and move as it does, one after another.
+void Sweeper::gather_as_one(const BulletWorld& world, uint32_t k) {
+    group_.clear();
+    const auto add = [this](uint32_t of) { is_in_group_[of] = true, group_.push_back(of); };
+    add(k);
+    for (size_t n = 0; n < group_.size(); ++n) {
+        const Body& body = world.bodies_[fast_[group_[n]].id];
+        const Box around = grown(body.shape.box, kBeside);
+        world.tree_.visit(around, [&](uint32_t id) {
+            const Body& other = world.bodies_[id];
+            if (other.kind != RigidKind::Kinematic || !other.is_fast || !overlap(other.shape.box, around, 0)) return;
+            const auto at = std::lower_bound(fast_.begin(), fast_.end(), id,
+                                             [](const Fast& fast, RigidId wanted) { return fast.id < wanted; });
+            const auto which = static_cast<uint32_t>(at - fast_.begin());
+            if (is_in_group_[which]) return;
+            const Vec3 place = middle_of_both(around, other.shape.box);
+            if (length(world.velocity_at(body, place) - world.velocity_at(other, place)) < kApart) add(which);
+        });
+    }
+}
+
+// Tiles of a lift are stopped as one: where one stood a millimetre behind the others, the next one was a kerb. True:
+// one of them has less of its way now, so that what was swept against it is to be looked at again.
+bool Sweeper::stop_as_one(BulletWorld& world, int round) {
+    bool is_any = false;
+    for (const uint32_t k : driven_) {
+        if (world.bodies_[fast_[k].id].moved_fraction == 1 || is_in_group_[k]) continue;
+        gather_as_one(world, k);
+        float least = 1;
+        for (const uint32_t of : group_) least = std::min(least, world.bodies_[fast_[of].id].moved_fraction);
+        for (const uint32_t of : group_) {
+            Body& body = world.bodies_[fast_[of].id];
+            if (!(body.moved_fraction > least)) continue;
+            body.moved_fraction = least, fast_[of].stopped_in = round;
+            is_any = true;
+        }
+    }
+    for (const uint32_t k : driven_) is_in_group_[k] = false;
+    return is_any;
+}
+
 uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
     constexpr int kRounds = 4;
     list_fast(world, dt);
@@ -410,6 +536,7 @@ uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
             if (round == 0) is_any |= sweep_slow(world, k, dt);
             is_any |= sweep_fast(world, k, round, dt);
         }
+        is_any |= stop_as_one(world, round);
     }
     uint32_t stopped = 0;
     for (const Fast& fast : fast_) stopped += world.bodies_[fast.id].moved_fraction < 1;

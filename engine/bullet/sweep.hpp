@@ -18,11 +18,15 @@ class BulletWorld;
 class Sweeper {
  public:
     explicit Sweeper(uint32_t body_limit) {
-        fast_.reserve(body_limit), by_low_.reserve(body_limit), brakes_.resize(body_limit);
+        fast_.reserve(body_limit), by_low_.reserve(body_limit), brakes_.resize(body_limit),
+            carriers_.resize(body_limit);
+        driven_.reserve(body_limit), group_.reserve(body_limit), is_in_group_.resize(body_limit);
         rows_.resize(48 * static_cast<size_t>(body_limit) + 16384);
     }
     /// Sets moved_fraction of every body, from 0 to 1; returns how many were stopped.
     uint32_t sweep(BulletWorld& world, float dt);
+    /// The way, m, that a kinematic body takes a struck one along after the stop of that.
+    Vec3 carry(const BulletWorld& world, const Body& body, float dt) const;
     /// After the step: what bodies were stopped by takes the speed that leads into it.
     void slow_down(BulletWorld& world);
 
@@ -53,6 +57,20 @@ class Sweeper {
         bool is_new;
     };
     void stop(Body& body, const Hull& hull, const Body& other, const Hull& other_hull, const Touch& touch);
+    /// The kinematic body that a fast one goes along with.
+    struct Carrier {
+        RigidId driven = kNoRigid;  // none
+        Vec3 normal, place;         // from it towards the body; about where they touch
+        float most = 0;             // m
+        float at = 1;               // of the step, from when on
+    };
+    static bool is_borne(const BulletWorld& world, const Body& body, RigidId driven, Vec3 normal);
+    void take_along(const BulletWorld& world, const Body& body, const Hull& hull, const Body& driven,
+                    const Hull& driven_hull, const Touch& touch);
+    float driven_until(const BulletWorld& world, const Body& driven, const Body& other, Vec3 normal, float at,
+                       float dt) const;
+    bool is_before(const Body& body, RigidId driven, Vec3 normal) const;
+    static float carried_speed(const BulletWorld& world, const Carrier& carrier);
     static void slow_spins(Body& a, Body& b, Vec3 place, Vec3 normal, float closing);
     static bool stop_closing(BulletWorld& world, Body& a, const Hull& p, Body& b, const Hull& q, Vec3 normal);
     static void find_near(const BulletWorld& world, const Box& box, std::vector<RigidId>& near);
@@ -71,12 +89,18 @@ class Sweeper {
     bool sweep_fast(BulletWorld& world, uint32_t k, int round, float dt);
     bool sweep_two_fast(BulletWorld& world, Fast& fast, Fast& other, int round, float dt);
     void sweep_pair(BulletWorld& world, Body& a, Body& b, float dt);
-    std::vector<Fast> fast_;
-    std::vector<uint32_t> by_low_;  // of fast_, by the low end of what they sweep along axis_
-    float Vec3::*axis_ = &Vec3::x;  // along which fast bodies lie farthest apart
-    double longest_ = 0;            // m, of what one sweeps along it
-    std::vector<Brake> brakes_;     // by body
-    std::vector<Neighbour> rows_;   // of one fast body after another, in any order of these
+    void gather_as_one(const BulletWorld& world, uint32_t k);
+    bool stop_as_one(BulletWorld& world, int round);
+    std::vector<Fast> fast_;         // rising ids
+    std::vector<uint32_t> driven_;   // of fast_, kinematic ones
+    std::vector<uint32_t> group_;    // of these, some that move as one
+    std::vector<bool> is_in_group_;  // by place in fast_
+    std::vector<uint32_t> by_low_;   // of fast_, by the low end of what they sweep along axis_
+    float Vec3::*axis_ = &Vec3::x;   // along which fast bodies lie farthest apart
+    double longest_ = 0;             // m, of what one sweeps along it
+    std::vector<Brake> brakes_;      // by body
+    std::vector<Carrier> carriers_;  // by body
+    std::vector<Neighbour> rows_;    // of one fast body after another, in any order of these
     std::atomic<size_t> row_count_ = 0;
     bool has_rows_ = true;  // there was room for all neighbours
 };

@@ -110,6 +110,63 @@ TEST(RaftEdges, WhatSlidesOverDrivenTilesGoesAsOverOneBox) {
     EXPECT_LT(highest, 0.01f);
 }
 
+/// A pane whose cells are of different height, as those of cooked ones are.
+Slider wavy_pane(Chance& chance, float side) {
+    Slider pane;
+    pane.name = "wavy pane";
+    pane.margin = 0.00056f;
+    constexpr float kCell = 0.025f;
+    constexpr int kCells = 8;
+    float low[kCells + 1][kCells + 1];
+    for (auto& row : low)
+        for (float& y : row) y = -0.0024f + chance.between(-0.0002f, 0.0002f);
+    for (int i = 0; i < kCells; ++i)
+        for (int j = 0; j < kCells; ++j) {
+            std::vector<Vec3> points;
+            for (int k = 0; k < 4; ++k) {
+                const int a = i + (k & 1), b = j + (k >> 1);
+                const float x = kCell * (real(a) - 0.5f * kCells), z = kCell * (real(b) - 0.5f * kCells);
+                points.push_back({x, low[a][b], z});
+                points.push_back({x, 0.0024f, z});
+            }
+            pane.pieces.push_back(points);
+        }
+    pane.mass = 0.6;
+    pane.inertia = {0.002, 0.004, 0.002};
+    pane.lift = 0.003f;
+    pane.turn = chance.between(0, 3.14f);
+    pane.side = side;
+    pane.speed = 6;
+    return pane;
+}
+
+// It lies there when the lift begins to move: it is struck by that, and rides on it after.
+TEST(RaftEdges, WhatALiftOfTilesStrikesSlidesOnAndTheTilesStayLevel) {
+    for (const Vec3 velocity :
+         {Vec3{0, 0.2f, 0}, Vec3{0, 0.5f, 0}, Vec3{0, -0.4f, 0}, Vec3{0, -1, 0}, Vec3{0.2f, 0, 0}, Vec3{0, 0, 0.2f}}) {
+        const auto world = make_bullet_world(kLimit);
+        world->set_gravity({0, -9.81f, 0});
+        const Raft raft{0.5f, velocity, false};
+        lay_raft(*world, raft);
+        Chance chance{std::mt19937(7)};
+        const auto level = [](float, float) { return 0.0f; };
+        for (uint32_t k = 0; k < kAbreast; ++k) {
+            const Slider pane = wavy_pane(chance, -0.9f + 0.6f * real(k));
+            add_slider(*world, kFirst + k, pane, laid_level(level, pane), {pane.speed, 0, 0});
+        }
+        for (int n = 0; n < 60; ++n) step(*world);
+        const Vec3 first = world->pose(0).position;
+        for (RigidId id = 1; id < 150; ++id) EXPECT_NEAR(world->pose(id).position.y, first.y, 1e-5f);
+        // One that goes 1 m/s down is overtaken in a fall, and any may wait for what it strikes.
+        EXPECT_NEAR(first.y, -kHalfHeight + velocity.y, 0.005f);
+        for (uint32_t k = 0; k < kAbreast; ++k) {
+            const Vec3 p = world->pose(kFirst + k).position;
+            EXPECT_NEAR(p.y, first.y + kHalfHeight + 0.003f, 0.002f) << velocity.y;
+            EXPECT_GT(p.x, 0.95f * (6 - 0.45f * (std::fabs(velocity.y) + 0.5f * 9.81f))) << velocity.y;
+        }
+    }
+}
+
 // A lift that stands above its floor is a step.
 TEST(RaftEdges, ALiftThatStandsHigherStopsWhatComes) {
     for (const float up : {0.0f, 0.5f}) {
