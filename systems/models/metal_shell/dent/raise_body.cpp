@@ -1,6 +1,7 @@
 #include "systems/models/metal_shell/dent/raise_body.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "systems/models/metal_shell/dent/ways.hpp"
@@ -9,23 +10,64 @@ namespace cullet {
 namespace {
 
 constexpr int kMostGuesses = 60;
-constexpr double kGoodGuess = 1e-8;  // of the energy
-constexpr double kDeepest = 0.3;     // of the extent along the push
-constexpr double kDragged = 0.5;     // of the depth
-constexpr double kFacing = 0.05;     // cosine: what looks away from the striker is not crushed
-constexpr int kSweeps = 40;          // of cells, and of vertices
+constexpr double kGoodGuess = 1e-8;      // of the energy
+constexpr double kDeepest = 0.3;         // of the extent along the push
+constexpr double kDragged = 0.5;         // of the depth
+constexpr double kOverPerimeter = 0.25;  // of its width: a round section over its perimeter
+constexpr double kFacing = 0.05;         // cosine: what looks away from the striker is not crushed
+constexpr int kSweeps = 40;              // of cells, and of vertices
 constexpr double kRelaxation = 1.6;
 constexpr float kStretchOfField = 0.1f, kShorteningOfField = 0.38f;  // of edges, by the field alone
 constexpr float kTieFall = 0.5f;                                     // of the field, of the gap between two sheets
 
-// m3 that the striker takes of what faces it.
-double crushed_volume(const MetalView& metal, const Striker& striker, double depth) {
+// m, between the body's longest and shortest side: of what its crush pressure is that of.
+double width_of(const MetalView& metal) {
+    Vec3d low(1e30, 1e30, 1e30), high(-1e30, -1e30, -1e30);
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
+        const Vec3d p(metal.vertices().original[metal.vertex(v)]);
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    const Vec3d size = high - low;
+    return std::min({std::max(size.x, size.y), std::max(size.y, size.z), std::max(size.x, size.z)});
+}
+
+// m2 of a wall that the striker takes by its open edges: how long each is, times how deep he goes in, as far as the
+// wall lies along his way.
+double taken_edges(const MetalView& metal, const Striker& striker, double depth, uint32_t element) {
+    const auto& beside = metal.shell.state.elements.neighbour[metal.shell.element(element)];
+    if (beside[0] != kNone && beside[1] != kNone && beside[2] != kNone) return 0;
+    const auto& c = metal.corners(element);
+    const std::array<Vec3d, 3> p{Vec3d(metal.vertices().start[metal.vertex(c[0])]),
+                                 Vec3d(metal.vertices().start[metal.vertex(c[1])]),
+                                 Vec3d(metal.vertices().start[metal.vertex(c[2])])};
+    const Vec3d across = cross(p[1] - p[0], p[2] - p[0]);
+    if (!(dot(across, across) > 0)) return 0;
+    const Vec3d normal = normalised(across);
+    double area = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        const Vec3d &a = p[k], &b = p[(k + 1) % 3];
+        const double met = dot(cross(normal, b - a), striker.push);
+        if (beside[k] != kNone || !(met > 0)) continue;
+        const double in =
+            striker.covers(a, depth) + 4 * striker.covers(0.5 * (a + b), depth) + striker.covers(b, depth);
+        area += met * in / 6;
+    }
+    return area;
+}
+
+// m3 that the striker takes of what faces it, or what resists him as much: a tube that is hit on its open end has
+// nothing that faces him, and yet the load of the section that it encloses. Over its perimeter that is a quarter of its
+// width, which holds for edges of any wall. Of a body that has both the larger one counts; a closed one has no edges.
+double crushed_volume(const MetalView& metal, const Striker& striker, double depth, double width) {
     const Striker wider = striker.widened(kDragged * depth);
     const MetalVertices& v = metal.vertices();
+    double edges = 0;
     const bool comes_first_at_its_point = striker.shape != StrikerShape::Front;
     double volume = 0;
     for (uint32_t e = 0; e < metal.element_count(); ++e) {
         if (metal.is_dead(e)) continue;
+        edges += taken_edges(metal, wider, depth, e);
         const auto& c = metal.corners(e);
         const Vec3d p(v.start[metal.vertex(c[0])]), q(v.start[metal.vertex(c[1])]), r(v.start[metal.vertex(c[2])]);
         const Vec3d centroid = (1.0 / 3) * (p + q + r);
@@ -35,7 +77,7 @@ double crushed_volume(const MetalView& metal, const Striker& striker, double dep
         if (!(facing > 0) || !(facing * facing > 0.25 * kFacing * kFacing * dot(across, across))) continue;
         volume += facing * wider.covers(centroid, depth);
     }
-    return volume;
+    return std::max(volume, kOverPerimeter * width * edges);
 }
 
 /// Where `missing` (J), which rises from -energy at 0 to `above` at `deepest`, is none: along chords, each of which
@@ -148,10 +190,11 @@ CrushPlan plan_crush(const MetalView& metal, const Striker& striker, double ener
     const double deepest = kDeepest * std::max(0.0, high_end - low_end);
     CrushPlan plan;
     if (!(pressure > 0) || !(energy > 0)) return plan;
-    const double most = pressure * crushed_volume(metal, striker, deepest);
+    const double width = width_of(metal);
+    const double most = pressure * crushed_volume(metal, striker, deepest, width);
     if (most <= energy) return {deepest, energy - most};
     plan.depth = depth_of(deepest, most - energy, energy,
-                          [&](double d) { return pressure * crushed_volume(metal, striker, d) - energy; });
+                          [&](double d) { return pressure * crushed_volume(metal, striker, d, width) - energy; });
     return plan;
 }
 
