@@ -1,6 +1,7 @@
 #include "systems/models/metal_shell/cook_metal_shell.hpp"
 
 #include "systems/models/metal_shell/cook/metal_rows.hpp"
+#include "systems/models/metal_shell/cook/turn_outwards.hpp"
 #include "systems/structures/shell/cook/shell_of_surface.hpp"
 #include "systems/structures/shell/cook/thin_fans.hpp"
 #include "systems/structures/shell/ring.hpp"
@@ -44,7 +45,9 @@ Result<std::shared_ptr<Model::Contents>> cook_metal_shell(Cooking& from) {
         return Error{"metal_shell dents what is ductile, and " + from.settings.material + " is " +
                      name_of(from.material.settings.kind) + "; give another model, or steel."};
     thin_fans(from.fine, kMostRing);
-    const Result<Surface> surface = prepare_surface(from.fine, from.welding);
+    Result<Surface> surface = prepare_surface(from.fine, from.welding);
+    if (!surface) return Error{surface.error()};
+    if (turn_outwards(from.fine, *surface) > 0) surface = prepare_surface(from.fine, from.welding);
     if (!surface) return Error{surface.error()};
     from.tell(0.1f);
     const Result<Extrusion> extrusion = extrude(*surface, from.settings.thickness);
