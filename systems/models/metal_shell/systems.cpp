@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "systems/bodies/blows.hpp"
+#include "systems/models/metal_shell/dent/along_dent.hpp"
 #include "systems/models/metal_shell/dent/dent.hpp"
 #include "systems/models/metal_shell/dent/feel.hpp"
 #include "systems/models/metal_shell/published/penalty.hpp"
@@ -88,6 +89,13 @@ struct Strikers {
     }
 };
 
+// What the rigid world finds touching comes along the surface's normal; a push of the game's comes as the game likes,
+// and a sheet that were shifted along itself would tear up. A flat one that crushes a body keeps its way.
+Vec3d way_of_push(MetalRows rows, Row<Tasks> task, Vec3d point, Vec3d normal, bool is_round) {
+    const MetalView metal(rows, rows.tasks.working[task]);
+    return is_round || !(metal.shells().crush_pressure[metal.row] > 0) ? into_sheet(metal, point, normal) : normal;
+}
+
 void gather_contacts(MetalRows rows, Row<Tasks> task, const Contact& strongest, const Strikers& strikers) {
     MetalRuns& runs = rows.metal_runs;
     const TaskContacts& contacts = rows.task_contacts;
@@ -102,18 +110,20 @@ void gather_contacts(MetalRows rows, Row<Tasks> task, const Contact& strongest, 
         middle += Vec3d(contacts.point[c]), ++count;
     }
     middle = is_round ? Vec3d(contacts.point[strongest.row]) : (1.0 / count) * middle;
+    const Vec3d push = striker.exists() ? normal : way_of_push(rows, task, middle, normal, is_round);
+    const double speed = strongest.speed * dot(normal, push);
     const double inverse_mass =
-        own_inverse_mass(rows, task, middle, normal) + double{contacts.striker_inverse_mass[strongest.row]};
-    const StrikerShape shape = is_round ? StrikerShape::Sphere : strikers.lay(rows, task, striker, middle, normal);
+        own_inverse_mass(rows, task, middle, push) + double{contacts.striker_inverse_mass[strongest.row]};
+    const StrikerShape shape = is_round ? StrikerShape::Sphere : strikers.lay(rows, task, striker, middle, push);
     runs.shape[task] = static_cast<uint8_t>(shape);
     runs.point.set(task, middle.to_float());
-    runs.push.set(task, normal.to_float());
+    runs.push.set(task, push.to_float());
     runs.radius[task] = contacts.striker_radius[strongest.row];
     runs.striker[task] = striker;
-    runs.speed[task] = static_cast<float>(strongest.speed);
-    runs.energy[task] = share_of(rows, task, striker) * 0.5 * strongest.speed * strongest.speed / inverse_mass;
+    runs.speed[task] = static_cast<float>(speed);
+    runs.energy[task] = share_of(rows, task, striker) * 0.5 * speed * speed / inverse_mass;
     const Row<MetalShells> metal = metal_of(rows, rows.tasks.working[task]);
-    runs.impulse[task] = impulse_of(rows, metal, task, strongest.speed, 1 / inverse_mass);
+    runs.impulse[task] = impulse_of(rows, metal, task, speed, 1 / inverse_mass);
 }
 
 // The front of the wave is a ball round the centre when it meets the body. What the wall's pieces would have of it by

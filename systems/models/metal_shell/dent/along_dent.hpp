@@ -10,4 +10,8 @@ namespace cullet {
 /// else stays as it is. Reads MetalVertices.start.
 Striker along_dent(const MetalView& metal, const Striker& ball);
 
+/// The way that a push which names its own goes into the sheet at a place: square to it as it was before all impacts,
+/// or between two sides where there is an edge. What it does along the sheet only slides. Unit, as `push`.
+Vec3d into_sheet(const MetalView& metal, Vec3d point, Vec3d push);
+
 }  // namespace cullet

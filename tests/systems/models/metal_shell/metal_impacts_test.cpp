@@ -1,6 +1,8 @@
 // What dents metal in a world, how much of it comes back, and what leaves it as it was.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "components/body_id.hpp"
 #include "sample_game/meshes.hpp"
 #include "systems/models/metal_shell/dent/limit_stretch.hpp"
@@ -363,6 +365,63 @@ TEST(MetalImpacts, FiftyHitsFromOneSideOnOneSpotStaySane) {
             EXPECT_LT(test::deepest(world, body), is_box ? 0.3 : 0.4) << is_box << " " << tilt;
             EXPECT_EQ(test::state_of(world).validate(), "");
         }
+}
+
+/// What a body's edges are of what they were, and triangles whose normal is past a right angle off.
+struct Sanity {
+    double longest = 0, shortest = 1e30;
+    uint32_t turned = 0;
+};
+Sanity sanity_of(const World& world, BodyId body) {
+    auto& state = const_cast<State&>(world.contents().data.state);
+    const MetalView metal(state, state.bodies.structure[body_row(state.bodies, body)]);
+    const auto now = [&](uint32_t v) { return state.vertices.rest[metal.shell.vertex(v)]; };
+    const auto then = [&](uint32_t v) { return metal.vertices().original[metal.vertex(v)]; };
+    const auto across = [&](const auto& at, uint32_t e) {
+        const auto& c = metal.corners(e);
+        return cross(at(c[1]) - at(c[0]), at(c[2]) - at(c[0]));
+    };
+    Sanity sanity;
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v)
+        metal.for_each_spring(v, [&](uint32_t other, uint32_t spring) {
+            if (metal.springs().is_tie[spring]) return;
+            const double share = double{length(now(other) - now(v))} / double{metal.springs().length[spring]};
+            sanity.longest = std::max(sanity.longest, share), sanity.shortest = std::min(sanity.shortest, share);
+        });
+    for (uint32_t e = 0; e < metal.element_count(); ++e) sanity.turned += dot(across(now, e), across(then, e)) < 0;
+    return sanity;
+}
+
+// A push along a sheet would draw it out to nine times its length and leave teeth. It slides.
+TEST(MetalImpacts, FiftySlantedPushesAllOverAPanelLeaveItWhole) {
+    double straight = 0;
+    for (const double tilt : {0.0, 0.5, 0.8, 1.05, 1.25, 1.5}) {
+        World world = test::make_world(settings_on(2, false));
+        const BodyId panel = spawn_panel(world);
+        double sine, cosine;
+        sine_cosine(tilt, sine, cosine);
+        for (int hit = 0; hit < 50; ++hit) {
+            double north, east;
+            sine_cosine(2.4 * hit, north, east);
+            const double x = std::fmod(hit * 0.618034, 1.0) - 0.5, z = std::fmod(hit * 0.754878, 1.0) - 0.5;
+            PushSettings push;
+            push.place = {static_cast<float>(0.9 * x), 1, static_cast<float>(0.9 * z)};
+            push.normal = Vec3d(sine * east, -cosine, sine * north).to_float();
+            push.approach_speed = 5, push.mass = 50, push.radius = 0.1f;
+            ASSERT_TRUE(world.push_impact(panel, push).ok());
+            for (int n = 0; n < 8; ++n) world.step();
+        }
+        const Sanity sanity = sanity_of(world, panel);
+        EXPECT_EQ(sanity.turned, 0u) << tilt;
+        EXPECT_LT(sanity.longest, 1.25) << tilt;
+        EXPECT_GT(sanity.shortest, 0.6) << tilt;
+        // What is across the sheet dents it: less, the more aslant.
+        const double deep = test::deepest(world, panel);
+        if (tilt == 0) straight = deep;
+        EXPECT_GT(deep, 0.02 * straight) << tilt;
+        EXPECT_LE(deep, 1.001 * straight) << tilt;
+        EXPECT_EQ(test::state_of(world).validate(), "");
+    }
 }
 
 }  // namespace
