@@ -111,7 +111,7 @@ void gather_contacts(MetalRows rows, Row<Tasks> task, const Contact& strongest, 
     }
     middle = is_round ? Vec3d(contacts.point[strongest.row]) : (1.0 / count) * middle;
     const Vec3d push = striker.exists() ? normal : way_of_push(rows, task, middle, normal, is_round);
-    const double speed = strongest.speed * dot(normal, push);
+    const double speed = striker.exists() ? strongest.speed : strongest.speed * dot(normal, push);
     const double inverse_mass =
         own_inverse_mass(rows, task, middle, push) + double{contacts.striker_inverse_mass[strongest.row]};
     const StrikerShape shape = is_round ? StrikerShape::Sphere : strikers.lay(rows, task, striker, middle, push);
