@@ -15,8 +15,12 @@ std::string metal_data_folder() {
     return folder ? folder : "../shared/data";
 }
 
+Model even_car_of(const char* metal) {
+    return cook_metal_mesh(make_car(), metal, 0.8e-3).value();
+}
+
 const Model& even_car() {
-    static const Model kCar = cook_metal_mesh(make_car(), "steel", 0.8e-3).value();
+    static const Model kCar = even_car_of("steel");
     return kCar;
 }
 

@@ -13,6 +13,7 @@ inline constexpr double kCarMass = 1000, kCarPressure = 0.2e6;  // kg; Pa, that 
 std::string metal_data_folder();
 /// A generated body of 14,658 vertices, 4.4 m long along x, nose toward +x: an even mesh.
 const Model& even_car();
+Model even_car_of(const char* metal);
 /// toycar_body_26k.ply, 3.8 m long along z, cooked with edges of at most 5 % of its diagonal; nothing where it is not
 /// there. It is full of slivers. Both are of steel of 0.8 mm.
 const std::optional<Model>& toy_car();

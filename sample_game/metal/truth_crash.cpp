@@ -17,7 +17,10 @@ namespace cullet {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kMostStretch = 0.25, kMostShortening = 0.4;
+/// Of edges, as the note's table of metals has them.
+struct EdgeLimits {
+    double stretch = 0.25, shortening = 0.4;  // steel's
+};
 
 /// Where the body is met by a flat or round thing that comes along a way, first of all its vertices.
 Striker first_touch(const MetalBench& bench, Vec3d push, StrikerShape shape, double radius, Vec3d through) {
@@ -44,9 +47,10 @@ struct Car {
     Vec3d backward;                                 // from its nose
     double out_of_one, out_of_fifty, out_of_balls;  // shares of edges out of limits, at most
 };
+constexpr double kOutOfOne = 0.003;  // share of edges, of an even mesh
 // The note's figures are of an even mesh; of one of slivers 2.3 % are out after one crash.
 std::vector<Car> cars() {
-    std::vector<Car> all{{"even car", &even_car(), {-1, 0, 0}, 0.003, 0.012, 0.002}};
+    std::vector<Car> all{{"even car", &even_car(), {-1, 0, 0}, kOutOfOne, 0.012, 0.002}};
     if (toy_car()) all.push_back({"toy car of slivers", &*toy_car(), {0, 0, -1}, 0.023, 1, 1});
     return all;
 }
@@ -57,8 +61,8 @@ MetalBench bench_of(const Car& car) {
     return bench;
 }
 
-double share_out(const MetalBench& bench) {
-    const StretchCount count = bench.stretch(kMostStretch, kMostShortening);
+double share_out(const MetalBench& bench, EdgeLimits limits = {}) {
+    const StretchCount count = bench.stretch(limits.stretch, limits.shortening);
     return static_cast<double>(count.outside) / std::max(1u, count.edges);
 }
 
@@ -84,16 +88,17 @@ Momenta momenta_of(const World& world) {
 }
 
 /// The largest share of edges out of limits after one crash, of eight directions and three speeds.
-double worst_of_one(const Car& car, StrikerShape shape, double mass) {
+double worst_of_one(const Model& car, EdgeLimits limits, StrikerShape shape, double mass) {
     double worst = 0;
     for (int side = 0; side < 8; ++side)
         for (const double speed : {5.0, 10.0, 15.0}) {
-            MetalBench bench = bench_of(car);
+            MetalBench bench(car);
+            bench.set_crush_pressure(kCarPressure);
             Vec3d push;
             sine_cosine(2 * kPi * side / 8, push.z, push.x);
             bench.hit(first_touch(bench, push, shape, 0.15, middle_of(bench) - 10.0 * push),
                       0.5 * mass * speed * speed);
-            worst = std::max(worst, share_out(bench));
+            worst = std::max(worst, share_out(bench, limits));
         }
     return worst;
 }
@@ -101,14 +106,20 @@ double worst_of_one(const Car& car, StrikerShape shape, double mass) {
 }  // namespace
 
 std::vector<Verdict> metal_one_crash() {
-    const Car car = cars().front();
-    const auto verdict = [&](const char* into, StrikerShape shape, double mass) {
-        return Verdict{
-            fmt::format("{}, {} at 5, 10, 15 m/s from eight sides: edges out of limits, worst", car.name, into),
-            worst_of_one(car, shape, mass), 0, car.out_of_one};
+    std::vector<Verdict> verdicts;
+    const auto add = [&](const char* metal, EdgeLimits limits) {
+        const Model car = even_car_of(metal);
+        const auto into = [&](const char* what, StrikerShape shape, double mass) {
+            verdicts.push_back(
+                {fmt::format("even car of {}, {} at 5, 10, 15 m/s from eight sides: edges out of limits, worst", metal,
+                             what),
+                 worst_of_one(car, limits, shape, mass), 0, kOutOfOne});
+        };
+        into("a wall", StrikerShape::Plane, kCarMass), into("a pole", StrikerShape::Cylinder, kCarMass);
+        into("a ball of 100 kg", StrikerShape::Sphere, 100);
     };
-    return {verdict("a wall", StrikerShape::Plane, kCarMass), verdict("a pole", StrikerShape::Cylinder, kCarMass),
-            verdict("a ball of 100 kg", StrikerShape::Sphere, 100)};
+    add("steel", {}), add("aluminium", {0.12, 0.3}), add("copper", {0.4, 0.4});
+    return verdicts;
 }
 
 std::vector<Verdict> metal_fifty_crashes() {

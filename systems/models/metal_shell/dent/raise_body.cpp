@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "systems/models/metal_shell/dent/dent.hpp"
 #include "systems/models/metal_shell/dent/ways.hpp"
 
 namespace cullet {
@@ -17,8 +18,11 @@ constexpr double kOverPerimeter = 0.25;  // of its width: a round section over i
 constexpr double kFacing = 0.05;         // cosine: what looks away from the striker is not crushed
 constexpr int kSweeps = 40;              // of cells, and of vertices
 constexpr double kRelaxation = 1.6;
-constexpr float kStretchOfField = 0.1f, kShorteningOfField = 0.38f;  // of edges, by the field alone
-constexpr float kTieFall = 0.5f;                                     // of the field, of the gap between two sheets
+// How much the field alone may stretch and shorten edges; folds, creases and what clears the striker do more. Of a
+// metal that stretches little, as aluminium does, they take the greater part.
+constexpr double kStretchOfField = 1.6, kLeastStretch = 0.02, kMostStretch = 0.1;  // of the break strain squared
+constexpr double kShorteningOfField = 1.6, kLeastShortening = 0.15, kMostShortening = 0.38;  // of the break strain
+constexpr float kTieFall = 0.5f;  // of the field, of the gap between two sheets
 
 // m, between the body's longest and shortest side: of what its crush pressure is that of.
 double width_of(const MetalView& metal) {
@@ -238,7 +242,11 @@ void raise_body(const MetalView& metal, const Striker& striker, double depth, do
             const double now = double{vertices.field[row]};
             vertices.field[row] = std::max(least(row), static_cast<float>(now + kRelaxation * (sum / weight - now)));
         }
-    drag_along(metal, striker.push.to_float(), kStretchOfField, kShorteningOfField);
+    // A ball that comes along a wall would drag it out of the body.
+    const double breaks = striker.shape == StrikerShape::Sphere ? 1 : sheet_metal(metal).break_strain;
+    drag_along(metal, striker.push.to_float(),
+               static_cast<float>(std::clamp(kStretchOfField * breaks * breaks, kLeastStretch, kMostStretch)),
+               static_cast<float>(std::clamp(kShorteningOfField * breaks, kLeastShortening, kMostShortening)));
 }
 
 }  // namespace cullet
