@@ -30,7 +30,7 @@ TEST(Demolition, TheStreetIsTheSameOnAnyNumberOfThreads) {
     // buildings break by explosions: none to five a street by touch alone, too few to ask a share of them to be ready.
     // ready_test asks that of scenes in which nothing else breaks a body.
     const uint64_t hits = report.tasks.ahead_hits, followed = hits + report.tasks.ahead_misses;
-    EXPECT_GE(hits, test::few_or_all(50u, 200u));
+    EXPECT_GE(hits, test::few_or_all(30u, 150u));  // enough to look at; how many there are hangs on every bit
     EXPECT_GE(4 * hits, followed);
     for (const uint32_t threads : test::few_or_all<std::vector<uint32_t>>({8}, {2, 8})) {
         const Report other = play_on(threads);
