@@ -15,7 +15,7 @@ struct LoadedSection {
 };
 
 /// How far the body goes along a direction, from the frame's origin, m.
-struct CutExtent {
+struct SectionExtent {
     float low = 1e30f, high = -1e30f;
     float size() const { return high - low; }
     void add(float at) { low = std::min(low, at), high = std::max(high, at); }
@@ -24,7 +24,7 @@ struct CutExtent {
 /// Of the body, along the normal, that is left on either side.
 inline constexpr float kKeptOfCut = 0.1f;
 /// The place nearest to `at` that leaves so much.
-inline float kept_between(const CutExtent& along, float at) {
+inline float kept_between(const SectionExtent& along, float at) {
     return std::clamp(at, along.low + kKeptOfCut * along.size(), along.high - kKeptOfCut * along.size());
 }
 

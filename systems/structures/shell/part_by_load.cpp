@@ -13,8 +13,8 @@ namespace {
 constexpr float kStray = 0.04f, kPast = 0.25f;
 constexpr uint32_t kFewestPoints = 2, kMostPoints = 12;
 
-CutExtent extent_along(const Vertices& vertices, Range rows, Vec3 direction) {
-    CutExtent e;
+SectionExtent extent_along(const Vertices& vertices, Range rows, Vec3 direction) {
+    SectionExtent e;
     for (uint32_t v = rows.first; v < rows.first + rows.count; ++v) {
         if (vertices.element[v] == kNone) continue;
         e.add(dot(direction, vertices.rest[v]));
@@ -33,7 +33,8 @@ bool part_shell_by_load(const BodyRows& rows, Blows& blows, Row<Bodies> body, co
     // The crack goes straight through the thinnest side.
     const Vec3 sweep = axis_across(bodies.inertia[body], Vec3d(normal), Inertia::Most).to_float();
     const Vec3 line = cross(sweep, normal);
-    const CutExtent along = extent_along(rows.vertices, range, normal), wide = extent_along(rows.vertices, range, line);
+    const SectionExtent along = extent_along(rows.vertices, range, normal),
+                        wide = extent_along(rows.vertices, range, line);
     if (!(along.size() > 0 && wide.size() > 0)) return false;
     const uint32_t row = append_cut(blows, body);
     if (row == kNone) return false;

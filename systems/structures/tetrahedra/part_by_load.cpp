@@ -17,7 +17,7 @@ bool part_solid_by_load(Read<All<SolidRows, Bodies>> rows, Blows& blows, Row<Bod
     const Random random{section.seed};
     const auto aside = [&](uint32_t i) { return kAskew * static_cast<float>(2 * random.uniform(i) - 1); };
     const Vec3 across = normalised(section.normal + Vec3{aside(0), aside(1), aside(2)});
-    CutExtent along;
+    SectionExtent along;
     const Range points = skin_of(rows, rows.bodies.structure[body]).points;
     for (uint32_t p = points.first; p < points.first + points.count; ++p)
         along.add(dot(across, rows.skin_points.place[p].to_float()));
