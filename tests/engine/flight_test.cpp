@@ -14,7 +14,7 @@ namespace cullet {
 namespace {
 
 constexpr uint32_t kAtOnce = 500;                             // of one world
-const uint32_t kFragments = test::few_or_all(2000u, 10000u);  // of each test
+const uint32_t kFragments = test::few_or_all(1500u, 10000u);  // of each test
 constexpr int kSteps = 30;
 constexpr float kFastest = 100, kSpin = 60, kSheetSpin = 400;  // m/s, rad/s
 constexpr uint32_t kWall = 0, kFirst = 1;

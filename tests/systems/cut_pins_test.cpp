@@ -4,6 +4,7 @@
 #include "components/state.hpp"
 #include "sample_game/meshes.hpp"
 #include "systems/bodies/pin_boxes.hpp"
+#include "tests/support/effort.hpp"
 #include "tests/support/random_hits.hpp"
 #include "tests/support/small_worlds.hpp"
 
@@ -172,7 +173,7 @@ void expect_pins(World& world, const std::vector<Box>& boxes, const std::vector<
 
 // Planes through the pane, one after another, pieces of pieces too, saved and loaded between two.
 TEST(CutPins, RandomCutsLeavePinsInTheBoxesAlone) {
-    for (uint64_t round = 0; round < 24; ++round) {
+    for (uint64_t round = 0; round < test::few_or_all(12u, 24u); ++round) {
         Draw draw{Random{0x70696e73}, round};
         const FractureMode mode = round % 2 ? FractureMode::Quick : FractureMode::Hidden;
         std::vector<Box> boxes;

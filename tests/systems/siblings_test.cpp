@@ -90,11 +90,11 @@ void expect_sound(const SiblingFigures& f, uint32_t breaks, const Bounds& today)
     EXPECT_LE(f.momentum_error, 1e-6);
 }
 
+const uint32_t kQuickBreaks = few_or_all(160u, 500u);
+
 TEST(Siblings, OfHiddenBreaksAreDrawnAsTheBodyWasAndDoNotThrowEachOther) {
     expect_sound(figures_of(FractureMode::Hidden, 500), 500, {0.85, 8, 2.1});
 }
-
-const uint32_t kQuickBreaks = few_or_all(160u, 500u);
 
 TEST(Siblings, OfQuickBreaksAreDrawnAsTheBodyWasAndDoNotThrowEachOther) {
     expect_sound(figures_of(FractureMode::Quick, kQuickBreaks), kQuickBreaks, {0.35, 5, kMostThrown});

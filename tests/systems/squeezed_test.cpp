@@ -18,7 +18,7 @@ using test::Draw;
 using test::format;
 
 constexpr double kRates[] = {30, 60, 120};
-const uint32_t kCases = test::few_or_all(5u, 8u);  // of each test
+const uint32_t kCases = test::few_or_all(4u, 8u);  // of each test
 constexpr double kHalf = 0.5;                      // of the thing's size: of the press
 uint32_t cases() {
     return test::cases_of(std::getenv("CULLET_SQUEEZED_CASES"), kCases);

@@ -62,7 +62,8 @@ TEST(Thresholds, ASecondHitGoesOnFromTheTipsOfTheFirst) {
     ASSERT_TRUE(known.ok()) << known.error();
     HitBench bench(Subject::Vase, known->model);
     uint32_t cracked = 0, tips = 0, gone_on = 0, lower = 0;
-    for (uint32_t i = 0; i < test::few_or_all(4u, 6u); ++i) {
+    // The fourth placement is the first that cracks before it breaks.
+    for (uint32_t i = test::few_or_all(3u, 0u); i < test::few_or_all(4u, 6u); ++i) {
         const SecondHit hit = find_second_hit(bench, i, i + 6, known->known.first_piece);
         if (hit.cut_edges == 0) continue;
         ++cracked;

@@ -53,7 +53,7 @@ TEST(RealSolids, HostileMeshesAreSoundOrRefused) {
     uint32_t sound = 0;
     const fs::path cache = fs::path(testing::TempDir()) / ("cullet_real_solids." + std::to_string(getpid()));
     fs::create_directories(cache);
-    const uint32_t every = test::few_or_all(2u, 1u);
+    const uint32_t every = test::few_or_all(3u, 1u);
     uint32_t seen = 0;
     for (const fs::path& file : test::files_below(test::test_data() / "hostile")) {
         if (test::is_companion(file) || seen++ % every != 0) continue;
