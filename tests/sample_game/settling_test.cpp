@@ -262,7 +262,7 @@ TEST_P(Settles, NearlyAllSleepFiveSecondsAfterTheLastBreakOrFallAndNoneMovesAfte
 // A wall leaves twenty slabs, some as long as a man, which lean on each other: a few of them rock on for longer than
 // five seconds. Wanted: none. How many walls that happens in is a rate, and no four of them tell it: 1 to 5 of 30 were
 // seen in a day's versions.
-const int kWalls = test::few_or_all(10, 30);
+const int kWalls = test::few_or_all(8, 30);
 TEST(ManyWalls, HardlyAnyKeepsASlabRockingForFiveSecondsOrTen) {
     size_t rocking = 0, moving = 0, loads = 0;
     for (int seed = 1; seed <= kWalls; ++seed) {
