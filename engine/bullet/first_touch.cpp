@@ -1,5 +1,6 @@
-// Where a crumb meets what is larger. It is a ball that stands against faces pushed out by its radius, so that it stops
-// up to 0.7 radii early at a sharp edge: nobody sees that of a crumb, and it takes no search for the closest point.
+// Where a piece of debris meets what is larger. It is a ball that stands against faces pushed out by its radius, so
+// that it stops up to 0.7 radii early at a sharp edge. Nobody sees that of debris, and it takes no search for the
+// closest point.
 #include <algorithm>
 
 #include "engine/bullet/bullet_world.hpp"
@@ -11,7 +12,7 @@ namespace {
 // m between it and what it has met, or its next step would begin in it: at most a tenth of its radius.
 constexpr float kClear = 2e-4f;
 // m that it may be in something and is still pushed out of it. Of what the game moves or what sleeps, beyond its
-// radius; of what moves by forces at all, at most a third of it: a crumb is born among pieces that it overlaps, which
+// radius; of what moves by forces at all, at most a third of it: debris is born among pieces that it overlaps, which
 // must not throw it. Of a static piece it is always pushed out: below a floor it would fall for ever.
 constexpr float kDeepest = 0.01f, kDeepestInFree = 0.001f;
 

@@ -57,7 +57,7 @@ std::string flaw_of_fragments(const State& state, const Break& plan, bool are_fi
         if (f.child[row].exists() && (f.is_debris[row] || state.bodies.parent[f.child[row]] != plan.body))
             return "no child of the body: " + f.describe_row(row);
         if (are_filled && f.is_debris[row] && !(f.volume[row] > 0))
-            return "a crumb without volume: " + f.describe_row(row);
+            return "debris without volume: " + f.describe_row(row);
         const Row<Fragments> next(f.order[row]);
         if (next < plan.fragments.first || next >= plan.fragments.first + plan.fragments.count)
             return "an order that leads away: " + f.describe_row(row);
