@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
-#include "engine/bullet/lanes.hpp"
+#include "engine/lanes.hpp"
 
 namespace cullet::bullet {
+
+using namespace lanes;
 namespace {
 
 // Gilbert, Johnson, Keerthi 1988 with the closest point of a simplex by Voronoi regions (Ericson, Real-Time Collision

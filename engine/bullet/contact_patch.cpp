@@ -5,10 +5,12 @@
 #include "engine/bullet/box_patch.hpp"
 #include "engine/bullet/closest_points.hpp"
 #include "engine/bullet/contact_spots.hpp"
-#include "engine/bullet/lanes.hpp"
 #include "engine/bullet/overlap_axis.hpp"
+#include "engine/lanes.hpp"
 
 namespace cullet::bullet {
+
+using namespace lanes;
 
 PatchFrame make_frame(Vec3 n) {
     // The world axis least along the normal, ties to x then y, gives the first direction.

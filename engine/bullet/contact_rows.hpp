@@ -7,9 +7,11 @@
 #pragma once
 #include <cstdint>
 
-#include "engine/bullet/lanes.hpp"
+#include "engine/lanes.hpp"
 
 namespace cullet::bullet {
+
+using namespace lanes;
 
 /// What impulses have changed of a body in this step so far. The one at 0 is everything that stands.
 /// A cache line, so that threads that solve others do not wait for it.

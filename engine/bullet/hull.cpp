@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/bullet/lanes.hpp"
 #include "engine/bullet/wrap_hull.hpp"
+#include "engine/lanes.hpp"
 
 namespace cullet::bullet {
+
+using namespace lanes;
 namespace {
 
 void set_points(Points& out, std::span<const Vec3> points) {

@@ -10,7 +10,6 @@ namespace {
 
 // What is within this of a touch lies beside it, and steps lower than this are none. At five times it kerbs of some
 // millimetres are lost, at a fifth tiles that were set by hand have edges again.
-constexpr float kFlush = 0.0005f;  // m, of scale 1, see lengths.hpp
 // A normal within a twentieth of a degree of a face's is that face's, and a neighbour that rises by less in the
 // direction of a normal does not lie in its way. At one degree balls at 20 m/s hop by a centimetre.
 constexpr float kFacing = 0.9999996f, kNearlyFacing = 0.99f;
@@ -22,7 +21,6 @@ constexpr float kAlong = 0.7f;
 constexpr float kGoesOn = 0.97f;   // cosine of faces of a piece that are one surface, or nearly
 constexpr float kBehind = 0.005f;  // m, of scale 1
 constexpr float kLevel = 0.9998f;  // cosine of planes that are one
-constexpr float kApart = 0.03f;    // m/s, half a millimetre in a step of a sixtieth
 constexpr int kTurns = 3;          // of a direction into a cone
 constexpr int kFaces = 4;          // looked at until one is open
 // A place on an edge is as exact as its coordinates.
@@ -177,9 +175,9 @@ Vec3 velocity_at(const Body& body, Vec3 place) {
 bool moves_along(const Body& beside, const Body& touched, Vec3 place, Vec3 direction, const Beside& there) {
     if (beside.kind == RigidKind::Static && touched.kind == RigidKind::Static) return true;
     const Vec3 apart = velocity_at(touched, place) - velocity_at(beside, place);
-    if (dot(apart, direction) > kApart) return false;
+    if (dot(apart, direction) > kAsOne) return false;
     const Vec3 up = there.has_way_out ? normalised(there.way_out) : direction;
-    return std::fabs(dot(apart, up)) < kApart;
+    return std::fabs(dot(apart, up)) < kAsOne;
 }
 
 /// Calls found(beside) for what is near the place, until it says true; whether it did.

@@ -25,4 +25,8 @@ inline float scale_of_width(float margin, float width, bool is_ball) {
 /// Points farther apart than this are no contact, m. Twice it and fast shards are braked by what they pass.
 inline constexpr float kContactRange = 0.005f;
 
+/// Pieces that lie this near to each other are side by side, m of scale 1. Bodies that move against each other by less
+/// than this move as one, m/s: half a millimetre in a step of a sixtieth.
+inline constexpr float kFlush = 0.0005f, kAsOne = 0.03f;
+
 }  // namespace cullet::bullet

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
-#include "engine/bullet/lanes.hpp"
 #include "engine/bullet/sides.hpp"
+#include "engine/lanes.hpp"
 
 namespace cullet::bullet {
+
+using namespace lanes;
 namespace {
 
 // Lengths are those of bodies of scale 1, see lengths.hpp.

@@ -52,11 +52,7 @@ void visit_leading(const Body& body, const Hull& hull, Vec3 outwards, float with
         if (dot(points[k], outwards) > most - within) found(points.centre + points[k]);
 }
 
-// Kinematic bodies that lie this near to each other and move against each other by less than this are side by side and
-// move as one, as in inner_edges.cpp.
-constexpr float kBeside = 0.0005f;  // m
-constexpr float kApart = 0.03f;     // m/s
-constexpr float kSlack = 1e-5f;     // m a step, as good as none
+constexpr float kSlack = 1e-5f;  // m a step, as good as none
 
 Vec3 middle_of_both(const Box& a, const Box& b) {
     const auto middle = [](float low_a, float low_b, float high_a, float high_b) {
@@ -490,7 +486,7 @@ void Sweeper::gather_as_one(const BulletWorld& world, uint32_t k) {
     add(k);
     for (size_t n = 0; n < group_.size(); ++n) {
         const Body& body = world.bodies_[fast_[group_[n]].id];
-        const Box around = grown(body.shape.box, kBeside);
+        const Box around = grown(body.shape.box, kFlush);
         world.tree_.visit(around, [&](uint32_t id) {
             const Body& other = world.bodies_[id];
             if (other.kind != RigidKind::Kinematic || !other.is_fast || !overlap(other.shape.box, around, 0)) return;
@@ -499,7 +495,7 @@ void Sweeper::gather_as_one(const BulletWorld& world, uint32_t k) {
             const auto which = static_cast<uint32_t>(at - fast_.begin());
             if (is_in_group_[which]) return;
             const Vec3 place = middle_of_both(around, other.shape.box);
-            if (length(world.velocity_at(body, place) - world.velocity_at(other, place)) < kApart) add(which);
+            if (length(world.velocity_at(body, place) - world.velocity_at(other, place)) < kAsOne) add(which);
         });
     }
 }

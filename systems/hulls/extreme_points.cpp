@@ -1,13 +1,19 @@
 #include "systems/hulls/extreme_points.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 
 #include "engine/assert.hpp"
+#include "engine/lanes.hpp"
 
 namespace cullet {
 namespace {
+
+using lanes::is_any;
+using lanes::kLanes;
+using lanes::LaneMask;
+using lanes::Lanes;
+using lanes::load;
 
 constexpr uint32_t kMostCorners = kMostHullPoints + 1;  // and the tip that makes a solid of flat points
 constexpr uint32_t kMostFaces = 128;                    // 62 by Euler; more only while rounding has torn the hull
@@ -19,22 +25,6 @@ struct Face {
     uint8_t corner[3];  // counter-clockwise from outside
     bool is_used = false;
 };
-
-constexpr uint32_t kLanes = 4;
-typedef float Lanes __attribute__((vector_size(4 * kLanes)));
-typedef int32_t LaneNumbers __attribute__((vector_size(4 * kLanes)));
-
-bool is_any(LaneNumbers mask) {
-    int64_t halves[2];
-    std::memcpy(halves, &mask, sizeof halves);
-    return (halves[0] | halves[1]) != 0;
-}
-
-Lanes load(const float* from) {
-    Lanes lanes;
-    std::memcpy(&lanes, from, sizeof lanes);
-    return lanes;
-}
 
 /// Planes of faces, four side by side: what lies above which of them is most of the work. A number that has no plane
 /// has nothing above it, up to the next multiple of four.
@@ -164,12 +154,12 @@ class Hull {
     void file(uint32_t i, const Planes& planes, uint32_t count) {
         const Vec3 p = points_[i];
         Lanes farthest{};
-        LaneNumbers from{};  // the first of the four planes
+        LaneMask from{};  // the first of the four planes
         for (uint32_t f = 0; f < count; f += kLanes) {
             const Lanes gap = planes.gaps(f, p);
-            const LaneNumbers is_farther = gap > farthest;
+            const LaneMask is_farther = gap > farthest;
             farthest = is_farther ? gap : farthest;
-            from = is_farther ? LaneNumbers{} + static_cast<int32_t>(f) : from;
+            from = is_farther ? LaneMask{} + static_cast<int32_t>(f) : from;
         }
         float most = 0;
         int32_t face = kNoFace;
@@ -213,7 +203,7 @@ class Hull {
         bool is_seen[kMostFaces];
         uint32_t free_faces = kMostFaces - face_count_;
         for (uint32_t f = 0; f < face_count_; f += kLanes) {
-            const LaneNumbers sees = planes_.gaps(f, p) > 0.1f * enough_;
+            const LaneMask sees = planes_.gaps(f, p) > 0.1f * enough_;
             for (uint32_t k = 0; k < kLanes; ++k) is_seen[f + k] = sees[k] != 0;
         }
         for (uint32_t f = 0; f < face_count_; ++f) free_faces += !faces_[f].is_used || is_seen[f];

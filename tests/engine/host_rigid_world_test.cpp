@@ -183,7 +183,7 @@ TEST(HostRigidWorld, PiecesThatComeOffMoveTheCentreAndTheMotionWithIt) {
     EXPECT_FLOAT_EQ(shape.motion.velocity.y, 1);  // 2 rad/s at half a metre
 }
 
-TEST(HostRigidWorld, DebrisFindTheTrianglesBelowThem) {
+TEST(HostRigidWorld, DebrisFindsTheTrianglesBelowIt) {
     Rows rows;
     const Vec3 corners[] = {{-1, 2, -1}, {1, 2, -1}, {0, 2, 1}, {-1, 0, -1}, {1, 0, -1}, {0, 0, 1}};
     const std::array<uint32_t, 3> triangles[] = {{0, 1, 2}, {3, 4, 5}};

@@ -207,7 +207,7 @@ TEST(WorldLimits, EveryAmountOfRoomForDrawnVerticesKeepsTheMassAndTheMeshes) {
     EXPECT_EQ(names, std::set<std::string>{"limits.view_vertices"});
 }
 
-TEST(WorldLimits, DebrisBeyondTheLimitStayPartOfTheirParent) {
+TEST(WorldLimits, DebrisBeyondTheLimitStaysPartOfItsParent) {
     Settings settings = small_settings();
     settings.limits.debris = 1;
     settings.debris_share = 0.05f;  // much debris

@@ -205,7 +205,7 @@ TEST(Retire, ARecordingWithItIsReplayedOnAnyNumberOfThreads) {
     std::filesystem::remove_all(path + ".models");
 }
 
-TEST(Retire, DebrisFadeAfterTheGamesTimeAndAreCounted) {
+TEST(Retire, DebrisFadesAfterTheGamesTimeAndIsCounted) {
     Settings settings = small_settings();
     settings.debris_share = 0.02f;
     settings.debris_seconds = 0.25f;

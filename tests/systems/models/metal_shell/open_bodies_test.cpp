@@ -1,8 +1,6 @@
 // Bodies that are open: a tube on its end bears its load, and which way triangles are wound makes no difference.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "sample_game/metal/metal_bench.hpp"
 #include "tests/systems/models/metal_shell/panels.hpp"
 
@@ -14,16 +12,19 @@ constexpr double kLength = 1.5, kWidth = 0.24, kThickness = 1e-3;
 /// Around z, open at both ends.
 Mesh tube() {
     return test::grid_mesh(48, 61, true, false, [](uint32_t i, uint32_t j) {
-        const double angle = 2 * test::kPi * i / 48;
-        return Vec3d(0.5 * kWidth * std::cos(angle), 0.5 * kWidth * std::sin(angle), kLength * j / 60);
+        double sine, cosine;
+        sine_cosine(2 * test::kPi * i / 48, sine, cosine);
+        return Vec3d(0.5 * kWidth * cosine, 0.5 * kWidth * sine, kLength * j / 60);
     });
 }
 
 /// A bin: a cone with a bottom and without a lid.
 Mesh bin() {
     Mesh mesh = test::grid_mesh(48, 25, true, false, [](uint32_t i, uint32_t j) {
-        const double angle = 2 * test::kPi * i / 48, radius = 0.18 + 0.05 * j / 24;
-        return Vec3d(radius * std::cos(angle), radius * std::sin(angle), 0.6 * j / 24);
+        double sine, cosine;
+        sine_cosine(2 * test::kPi * i / 48, sine, cosine);
+        const double radius = 0.18 + 0.05 * j / 24;
+        return Vec3d(radius * cosine, radius * sine, 0.6 * j / 24);
     });
     const auto middle = static_cast<uint32_t>(mesh.positions.size());
     mesh.positions.push_back({0, 0, 0});

@@ -11,7 +11,7 @@
 /// Lanes that go through memory from one function to the next cost more than what is done with them.
 #define CULLET_LANES_INLINE [[gnu::always_inline]] inline
 
-namespace cullet::bullet {
+namespace cullet::lanes {
 
 inline constexpr uint32_t kLanes = 4;
 typedef float Lanes __attribute__((vector_size(16)));
@@ -77,4 +77,4 @@ CULLET_LANES_INLINE void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
     d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
 }
 
-}  // namespace cullet::bullet
+}  // namespace cullet::lanes
